@@ -1,4 +1,5 @@
-// Reads the state in place: how much liquid stands above each cell of the ground, as a PGM picture.
+// The example reads the state in place. It prints how much liquid stands above each cell of the ground, as a
+// PGM picture.
 //   heights SCENE.toml STEPS > heights.pgm
 #include <voxmelt/voxmelt.h>
 #include <algorithm>

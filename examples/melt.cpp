@@ -1,4 +1,4 @@
-// Melts a scene and prints the digest of its state: equal digests mean equal bits.
+// The example melts a scene and prints the digest of its state. Equal digests mean equal bits.
 //   melt SCENE.toml STEPS
 #include <voxmelt/voxmelt.h>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Draws a scene while it melts: picture_0.png, picture_1.png, ...
+// The example draws a scene while it melts, into the files picture_0.png, picture_1.png and so on.
 //   picture SCENE.toml PICTURES STEPS_BETWEEN
 #include <voxmelt/voxmelt.h>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A torch in the user's hand: it circles above the scene, and a vent pours from it in the second half.
+// A torch in the user's hand circles above the scene. After the first half turn a vent pours from it, too.
 //   torch SCENE.toml TURNS
 #include <voxmelt/voxmelt.h>
 #include <cmath>
@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   voxmelt::Simulation simulation(argv[1]);
   const voxmelt::Grid grid = simulation.grid();
 
-  constexpr int kStepsPerTurn = 64, kStepsPerMove = 8;  // a source is looked at every 8th step
+  constexpr int kStepsPerTurn = 64, kStepsPerMove = 8;  // by default, shadows are cast every 8th step
   for (int step = 0; step < kStepsPerTurn * std::atoi(argv[2]); step += kStepsPerMove) {
     const double angle = 2 * std::numbers::pi * step / kStepsPerTurn;
     const voxmelt::Position torch{grid.x * (0.5 + 0.4 * std::cos(angle)), 1.0 * grid.y,

@@ -1,5 +1,6 @@
-// The heart of a viewer, without a window: frames from a camera that moves, steps until somebody says stop,
-// what is under the pointer, and a run that goes on another day.
+// The example is the heart of a viewer, without a window. It draws frames from a camera that moves, and runs
+// steps until somebody stops them. It tells what lies under the pointer, and saves the run so that it can go
+// on later.
 //   viewer SCENE.toml FRAMES > frames.ppm
 #include <voxmelt/voxmelt.h>
 #include <cstddef>
@@ -26,7 +27,7 @@ int main(int argc, char** argv) try {
     picture.camera->azimuth += 5;
     picture.camera->distance *= 0.98;
 
-    std::stop_source user;  // who presses a key after ten steps
+    std::stop_source user;  // stands for a user who presses a key after ten steps
     simulation.step(1000000, user.get_token(), [&](std::uint32_t done, std::uint32_t) {
       if (done == 10) user.request_stop();
     });

@@ -1,4 +1,4 @@
-// The books of a run as the public face shows them.
+// The books of a run are turned into the form that the public face shows.
 #pragma once
 
 #include "kernel/automaton/state/ledger.h"

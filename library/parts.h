@@ -1,4 +1,4 @@
-// What a Simulation of the public face is made of.
+// A Simulation of the public face is made of these parts.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class Simulation::Parts {
   Changes changes(std::uint64_t since);
 
   void set(const std::string& key, double value);
-  // Replaces one kind of source; the others stay.
+  // Replaces one kind of source. The other kinds stay.
   template <class Change>
   void change_sources(const Change& change) {
     const rule::Parameters& now = simulation.parameters();
@@ -36,18 +36,18 @@ class Simulation::Parts {
     sources_changed_ = true;
   }
 
-  // The picture of the present state, which keeps what has not changed since the last one.
+  // Returns the picture of the present state. It keeps what has not changed since the last one.
   render::Picture& up_to_date();
 
   const step::Implementation& implementation;
   const int threads;
 
  private:
-  // A scene as a file gave it, and what a checkpoint knows of the files behind it.
+  // Holds a scene as a file gave it, and what a checkpoint knows of the files behind it.
   struct Opened {
     scene::Scene scene;
     std::vector<checkpoint::FileState> files;
-    std::uint64_t digest = 0;  // of the first cells
+    std::uint64_t digest = 0;  // digest of the first state
   };
   static Opened open(const std::filesystem::path& file, const Options& options);
   run::Simulation begin(scene::Scene& scene) const;
@@ -61,7 +61,7 @@ class Simulation::Parts {
   const scene::Scene& scene() const { return opened_.scene; }
 
  private:
-  bool sources_changed_ = false;  // they are no longer those of the settings
+  bool sources_changed_ = false;  // true once the sources differ from those in the settings
   render::Picture picture_;
   library::VersionNumbers versions_;
 };

@@ -1,4 +1,5 @@
-// The pictures of a Simulation: from the units of a user to those of the renderer, and back.
+// A Simulation draws its pictures here. Values pass from the units of a user to those of the renderer, and
+// back.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,7 +41,7 @@ render::Setting setting_of(Quality quality) {
 }
 
 void look_from(const Camera& from, scene::Camera& camera) {
-  constexpr double kFarthest = 65536;  // as in scenes
+  constexpr double kFarthest = 65536;  // the limit in scenes, too
   for (std::size_t axis = 0; axis < 3; ++axis)
     camera.target[axis] = checked("camera.target", from.target[axis], -kFarthest, kFarthest);
   camera.distance = checked("camera.distance", from.distance, 0.0, 4 * kFarthest);
@@ -74,12 +75,12 @@ Frame frame_of(const render::Image& image, int alignment) {
 
 Shown shown_by(const render::Sight& sight) {
   if (sight.ground) return Shown::ground;
-  constexpr int kHalf = 128;  // of 255
+  constexpr int kHalf = 128;  // half of 255
   if (sight.matter.obstacle >= kHalf) return Shown::obstacle;
   return sight.matter.liquid >= kHalf ? Shown::liquid : Shown::solid;
 }
 
-// The cell that has a position in it; the nearest one, if that is outside.
+// Returns the cell that contains a position. For a position outside the grid this is the nearest cell.
 Cell cell_at(picture::Vector p, state::Grid grid) {
   const auto along = [](std::int64_t at, int cells) {
     return static_cast<int>(std::clamp<std::int64_t>(at >> picture::kPositionBits, 0, cells - 1));
@@ -92,7 +93,7 @@ bool is_filled(const state::Volume& volume, Cell c) {
          volume.inert.test(c.x, c.y, c.z);
 }
 
-// The first cell along the ray, within four cells, that is not air.
+// Returns the first cell along the ray, within four cells, that is not air.
 Cell first_filled(const state::Volume& volume, const render::Sight& sight, Cell otherwise) {
   const auto inside = [](std::int64_t at, int cells) { return at >= 0 && at < cells * picture::kCell; };
   picture::Vector p = sight.position;

@@ -15,7 +15,7 @@ namespace {
 
 using scene::Value;
 
-// HeatSourceKind has the order of rule::SourceKind. A number beyond both has no name and no keys: it is
+// HeatSourceKind has the order of rule::SourceKind. A number beyond both has no name and no keys, and is
 // refused.
 static_assert(kHeatSourceKinds == rule::kSourceKinds.size());
 rule::SourceKindRow row_of(HeatSourceKind kind) {
@@ -24,7 +24,7 @@ rule::SourceKindRow row_of(HeatSourceKind kind) {
   return {.kind = {}, .name = "none"};
 }
 
-// The document that a scene file with these tables would be.
+// Builds the document that a scene file with these tables would give.
 class Document {
  public:
   explicit Document(const char* caller)
@@ -60,7 +60,7 @@ class Document {
   }
   Value position(const Position& at) const { return array({number(at[0]), number(at[1]), number(at[2])}); }
 
-  // The document with one list: [[key]], as to_table makes each of its tables.
+  // Returns the document with one list [[key]]. Each of its tables is made by to_table.
   template <class Item, class ToTable>
   Value list(const char* key, const std::vector<Item>& items, const ToTable& to_table) const {
     std::vector<Value> tables;
@@ -75,7 +75,7 @@ class Document {
   scene::Place place_;
 };
 
-template <class Source>  // what vents and drains have in common
+template <class Source>  // makes the keys that vents and drains share
 Value region_table(const Document& document, const Source& source) {
   Value table = document.table();
   table.put("at", document.position(source.at));

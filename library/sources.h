@@ -1,4 +1,4 @@
-// Sources, vents and drains: from the units of a user to the automaton's integers, and back.
+// Sources, vents and drains are converted from the units of a user to the automaton's integers, and back.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ HeatSource from_rule(const rule::HeatSource& source);
 Vent from_rule(const rule::Vent& vent);
 Drain from_rule(const rule::Drain& drain);
 
-// All of them as a scene file would say them: [[heat_source]], [[vent]], [[drain]].
+// Returns all of them as a scene file would list them, in [[heat_source]], [[vent]] and [[drain]].
 scene::Value lists_of(const rule::Parameters& parameters);
 
 }  // namespace voxmelt::library

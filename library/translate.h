@@ -1,4 +1,4 @@
-// From the errors of the rooms inside to those of the public face.
+// Errors of the inner rooms are translated into those of the public face.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ template <class Error>
   throw OutputError(error.what());
 }
 
-// Returns what `work` returns. What it throws is thrown as one of the public errors.
+// Returns the result of `work`. An exception from it is thrown on as one of the public errors.
 template <class Work>
 decltype(auto) translated(const Work& work) {
   try {

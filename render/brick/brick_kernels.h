@@ -1,4 +1,4 @@
-// The loops that fill bricks, written once, in the vector types that g++ and clang have for any processor.
+// The loops that fill bricks are written once, in the vector types that g++ and clang have for any processor.
 // Everything is a template over the instruction set, so that the linker cannot take a function of one for
 // another's.
 #pragma once
@@ -33,7 +33,7 @@ struct BrickKernels {
     return (halves[0] | halves[1]) != 0;
   }
 
-  // (43 a + 170 b + 43 c + 128) >> 8 of the two bytes of each number: neither sum leaves 16 bits.
+  // Computes (43 a + 170 b + 43 c + 128) >> 8 of the two bytes of each number. Neither sum leaves 16 bits.
   template <class V>
   [[gnu::always_inline]] static void filter(const V& a, const V& b, const V& c, V& to) {
     const V high = 43 * ((a >> 8) + (c >> 8)) + 170 * (b >> 8);
@@ -41,7 +41,7 @@ struct BrickKernels {
     to = high + (low >> 8);
   }
 
-  // Two rows at a time: along x, then y, then z.
+  // Filters two rows at a time, along x, then y, then z.
   static void filter_all(const Word* intensity, const BrickSource& source,
                          Word (&to)[kCells][kCells][kCells]) {
     alignas(32) Word along_x[kWide][kWide][kCells], along_y[kWide][kCells][kCells];
@@ -73,7 +73,8 @@ struct BrickKernels {
         filter(words[0], words[1], words[2], filtered);
         std::memcpy(along_x[k][j], &filtered, sizeof filtered);
       }
-      // The rows between two pairs come from those: memory would be read before it is written.
+      // The rows between two pairs are put together from registers. Otherwise memory would be read before it
+      // is written.
       Words low, high, between, filtered;
       load(low, along_x[k][0]);
       for (int j = 0; j < kCells; j += 2) {
@@ -133,7 +134,7 @@ struct BrickKernels {
     return (parts[0] | parts[1] | parts[2] | parts[3]) != 0;
   }
 
-  // Where there is no intensity there is no matter, so what lies beyond a row's end does not count.
+  // Without intensity there is no matter, so what lies beyond a row's end does not count.
   [[gnu::always_inline]] static void words_of(const MatterSource& matter, std::size_t cell, const Row& level,
                                               Int& words) {
     Row soft, other{};
@@ -148,8 +149,8 @@ struct BrickKernels {
     wide(hard, solid);
     const Int all = liquid + solid;
     quotient(255 * liquid, all, words);
-    if (matter.obstacle !=
-        nullptr) {  // the divisor may have 18 bits: a quotient that was rounded up is mended
+    // The divisor may have 18 bits. A quotient that was rounded up is mended.
+    if (matter.obstacle != nullptr) {
       Int obstacle, share;
       wide(other, obstacle);
       quotient(255 * obstacle, all + obstacle, share);
@@ -227,7 +228,7 @@ struct BrickKernels {
     to = (a > b ? a : b) - (a > b ? b : a);
   }
 
-  // A block has the places 1 to 5, or 5 to 9. Lane 0 is that of place 1.
+  // A block has the places 1 to 5, or 5 to 9. Lane 0 belongs to place 1.
   static void ranges(const std::int16_t* levels, BlockRanges& to) {
     Lanes the_lanes[4] = {};
     for (int k = 0; k < 9; ++k)

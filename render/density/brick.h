@@ -1,4 +1,4 @@
-// Bricks of 8x8x8 cells: the unit in which the field is kept up to date and in which rays skip empty space.
+// A brick has 8x8x8 cells. The field is kept up to date by bricks, and rays skip empty space by bricks.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace voxmelt::render {
 using state::brick_grid;
 using state::kBrickSide;
 
-// The cells of a brick, or of some bricks side by side, that are inside the grid: from low to high.
+// Bounds the cells of a brick, or of some bricks side by side, that are inside the grid, from low to high.
 struct CellBox {
   state::Grid low, high;
 };
@@ -33,7 +33,7 @@ void for_rows(const state::Grid& grid, const CellBox& box, const Visit& visit) {
       visit(grid.index(box.low.x, y, z), state::Grid{box.low.x, y, z}, box.high.x - box.low.x);
 }
 
-// Where in a brick something is: the planes across each axis that hold it, a bit each.
+// Tells where in a brick something is. The planes across each axis that hold it have a bit each.
 struct BrickPart {
   std::uint8_t x = 0, y = 0, z = 0;
 
@@ -46,7 +46,8 @@ struct BrickPart {
   }
 };
 
-// The planes of the brick `side` (-1, 0, 1) of one that lie within `cells` of these planes in that one.
+// Returns planes of the neighbour at `side` (-1, 0, 1) of a brick. They lie within `cells` of these planes in
+// the brick itself.
 inline std::uint8_t reached(std::uint8_t planes, int side, int cells) {
   unsigned wide = unsigned{planes} << kBrickSide;
   for (int i = 0; i < cells; ++i) wide |= wide << 1 | wide >> 1;
@@ -57,7 +58,7 @@ inline std::uint8_t reached(std::uint8_t planes, int side, int cells) {
 template <class Visit>
 void for_reached(const state::Grid& bricks, const state::Grid& brick, const BrickPart& part, int cells,
                  const Visit& visit) {
-  std::array<BrickPart, 3> to;  // by side: -1, 0, 1
+  std::array<BrickPart, 3> to;  // indexed by side + 1
   for (int side = -1; side <= 1; ++side)
     to[static_cast<std::size_t>(side + 1)] = {reached(part.x, side, cells), reached(part.y, side, cells),
                                               reached(part.z, side, cells)};

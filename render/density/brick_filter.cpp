@@ -7,9 +7,10 @@
 namespace voxmelt::render {
 namespace {
 
-constexpr std::uint16_t kWhole = 256;  // a weight
+constexpr std::uint16_t kWhole = 256;  // full weight
 
-// Do a brick and all of its neighbours have the same value everywhere? Then filtering does not change it.
+// Tells whether a brick and all of its neighbours have the same value everywhere. Then filtering does not
+// change it.
 bool has_one_value(const CellFields& cells, int channel, const state::Grid& brick) {
   const state::Grid& bricks = cells.bricks;
   const std::int32_t value = cells.uniform(channel, bricks.index(brick.x, brick.y, brick.z));
@@ -21,7 +22,7 @@ bool has_one_value(const CellFields& cells, int channel, const state::Grid& bric
   return true;
 }
 
-// The planes of the box of a row of bricks in which something is dirty.
+// Returns the part of a box of bricks in a row that holds something dirty, by planes across y and z.
 CellBox trimmed(const CellBox& box, const BrickPart& part) {
   CellBox to = box;
   to.low.y += std::countr_zero(part.y);
@@ -39,7 +40,7 @@ void fill(const BrickFilter::Task& task, int channel, const state::Grid& brick) 
   for_rows(cells.grid, cells_of(cells.grid, brick), [&](std::size_t i, const state::Grid&, int count) {
     std::uint16_t* row = to.data() + i;
     for (int x = 0; x < count; ++x)
-      if (row[x] != value) row[x] = value;  // what is empty already takes no memory
+      if (row[x] != value) row[x] = value;  // memory that was never written takes no pages
   });
 }
 
@@ -86,7 +87,7 @@ void BrickFilter::filter(const Task& task, int channel, const CellBox& box) {
 }
 
 void BrickFilter::mix_intensity(const Task& task, const CellBox& box) {
-  const auto place = [&](const state::Grid& cell) {  // in weights_ and other_
+  const auto place = [&](const state::Grid& cell) {  // index in weights_ and other_
     return static_cast<std::size_t>((cell.z - box.low.z) * kBrickSide + (cell.y - box.low.y)) * kMostBricks *
            kBrickSide;
   };
@@ -101,7 +102,7 @@ void BrickFilter::mix_intensity(const Task& task, const CellBox& box) {
     }
   });
 
-  // Many bricks need only one of the two filters. Where both are needed, the weaker one is an intermediate
+  // Many bricks need only one of the two filters. If both are needed, the weaker one is an intermediate
   // result of the stronger.
   const bool both = least < kWhole && most > 0 && task.liquid_passes != task.solid_passes;
   const int alone = most > 0 ? task.liquid_passes : task.solid_passes;

@@ -1,4 +1,5 @@
-// Filters the channels of some bricks side by side, and mixes the intensities that liquid and solid ask for.
+// The filter works on the channels of some bricks side by side. It mixes the intensities that liquid and
+// solid ask for.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +14,21 @@
 
 namespace voxmelt::render {
 
-// A byte per brick: the channels that must be filtered in it.
+// Holds a byte per brick, with the channels that must be filtered in it.
 using BrickFlags = std::vector<std::uint8_t>;
 
-// Where in a brick they must be filtered; along x always everywhere.
+// Tells where in a brick they must be filtered. Along x that is everywhere.
 struct DirtyPart {
   BrickPart matter, heat;
 };
 
-// Of all channels but the intensity: the shares reach as far as that does, and at least to the first cell of
-// air, even where nothing is filtered.
+// Returns the passes of all channels but the intensity. The shares reach as far as the intensity, and at
+// least to the first cell of air, even if nothing is filtered.
 inline int channel_passes(int liquid_passes, int solid_passes) {
   return std::max({liquid_passes, solid_passes, 1});
 }
 
-// Its memory is taken once and used again, for task after task.
+// Filters rows of bricks. Its memory is taken once and used again, for task after task.
 class BrickFilter {
  public:
   struct Task {
@@ -41,7 +42,7 @@ class BrickFilter {
 
   explicit BrickFilter(const state::Grid& grid) : low_pass_(grid) {}
 
-  // The bricks of row (by, bz): in each, those channels whose flag it has.
+  // Filters the bricks of row (by, bz). In each it filters the channels whose flag is set.
   void filter_row(const Task& task, int by, int bz);
 
  private:

@@ -16,7 +16,7 @@ std::uint16_t intensity_of(std::int32_t amount) {
   return static_cast<std::uint16_t>(std::clamp(amount, 0, kOne) * kFull / kOne);
 }
 
-// The value that all cells of the box have, or kMixed.
+// Returns the value that all cells of the box have, or kMixed.
 std::int32_t one_value(const state::Grid& grid, const CellBox& box, const Values<std::uint16_t>& values) {
   const std::uint16_t first = values[grid.index(box.low.x, box.low.y, box.low.z)];
   bool same = true;
@@ -121,7 +121,7 @@ void BrickWriter::write_intensity(const state::Grid& brick) {
 }
 
 void BrickWriter::put_matter() {
-  for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid&, int) {  // they lie far apart in memory
+  for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid&, int) {  // rows lie far apart in memory
     __builtin_prefetch(fields_.solid.data() + i);
     __builtin_prefetch(fields_.liquid.data() + i);
     __builtin_prefetch(fields_.intensity.data() + i);
@@ -137,7 +137,7 @@ void BrickWriter::put_matter() {
   });
 }
 
-// False: there are none.
+// Returns false if there are none.
 bool BrickWriter::put_obstacles(const state::Grid& brick) {
   obstacle_.fill(0);
   bool any = false;
@@ -161,7 +161,7 @@ void BrickWriter::put_plan(const Plan& plan, int x, int z) {
   if (plan.puddle() && plan.floor == plan.bed) move_puddle(plan, x, z);
 }
 
-// Ground up to the true height of the bed, less the sink.
+// Fills the ground up to the true height of the bed, less the sink.
 void BrickWriter::fill_ground(const Plan& plan, int x, int z) {
   for (int y = box_.low.y; y < std::min(plan.bed + 1, box_.high.y); ++y) {
     std::uint16_t& to = at(intensity_, x, y, z);

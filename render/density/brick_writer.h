@@ -1,4 +1,5 @@
-// Computes what the cells of one brick contribute, and takes over what differs from what is kept.
+// The writer computes what the cells of one brick contribute, and takes over what differs from the kept
+// values.
 #pragma once
 
 #include <array>
@@ -16,12 +17,12 @@ class BrickWriter {
   BrickWriter(const state::Volume& volume, CellFields& fields, bool heat, const Loops& with)
       : volume_(volume), fields_(fields), heat_(heat), loops_(with) {}
 
-  // The solid, liquid and heat of a brick.
+  // Writes the solid, liquid and heat of a brick.
   void write_matter(const state::Grid& brick);
   // Takes over the inert cells of the word of 64 cells along x that holds the brick, on all of its rows.
-  // Returns in which places along x one has changed.
+  // Returns the places along x at which one has changed.
   std::uint64_t take_inert(const state::Grid& brick);
-  // Then, once its columns are known, obstacles and intensity.
+  // Writes obstacles and intensity afterwards, once the columns of the brick are known.
   void write_intensity(const state::Grid& brick);
 
  private:

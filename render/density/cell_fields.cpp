@@ -63,7 +63,7 @@ void CellFields::take_matter(const state::Volume& volume, int bz, const Marked& 
   BrickWriter writer(volume, *this, wanted_.heat, with);
   std::size_t brick = bricks.index(0, 0, bz);
   for (int by = 0; by < bricks.y; ++by) {
-    int word = -1;  // whose inert cells are known
+    int word = -1;  // word whose inert cells are known
     for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
       if (!marked(brick)) continue;
       if (word != bx / 8) {
@@ -91,7 +91,7 @@ void CellFields::write_intensities(const state::Volume& volume, int bz, const Co
     for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
       const std::size_t column = columns_.brick_at(bx, bz);
       const int low = by * kBrickSide, high = low + kBrickSide;
-      // What moves up or down comes from a cell below or above.
+      // Matter that moves up or down comes from a cell below or above.
       const Extent& planned = columns_.planned(column);
       const bool moved = planned.low < high && planned.high > low;
       const auto beside = [&](std::size_t other, std::uint8_t plane) {

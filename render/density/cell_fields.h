@@ -1,11 +1,11 @@
-// What each cell contributes to the picture, before filtering (docs/picture/field.md, sections 2 to 5).
+// Each cell contributes to the picture, before filtering (docs/picture/field.md, sections 2 to 5).
 //
-// Intensities are the paper's 0..255 with eight fraction bits (u16, kFull = 255 * 256): linear in the
-// amount of a cell, full at kOne and above. Arrays are [z][y][x], x fastest.
+// Intensities are the paper's 0..255 with eight fraction bits (u16, kFull = 255 * 256). They are linear in
+// the amount of a cell, and full at kOne and above. Arrays are [z][y][x], x fastest.
 //
-// The ground (columns.h) is filled below and beside matter, because otherwise the surface of a thin film
-// would sink into the floor and the rim of a puddle would curl. Next to dry ground the filling ends a little
-// below the ground, so that the surface closes where the ground hides it.
+// The ground (columns.h) is filled below and beside matter. Otherwise the surface of a thin film would sink
+// into the floor, and the rim of a puddle would curl. Next to dry ground the filling ends a little below the
+// ground, so that the surface closes where the ground hides it.
 //
 // Puddles are shifted up or down by a fraction of a cell to remove their terraces (levels.h).
 #pragma once
@@ -31,7 +31,7 @@ enum Channel { kIntensity, kSolid, kLiquid, kHeat, kObstacle, kChannels };
 inline std::uint8_t flag_of(int channel) { return static_cast<std::uint8_t>(1 << channel); }
 inline constexpr std::uint8_t kAllChannels = (1 << kChannels) - 1;
 
-// One array per channel; that of the obstacles is empty where there is none.
+// Holds one array per channel. The array of the obstacles is empty if there are none.
 struct ChannelValues {
   Values<std::uint16_t> intensity;  // matter, obstacles and the ground that carries them
   Values<std::uint16_t> solid;      // the solid's part of the intensity
@@ -51,8 +51,8 @@ struct ChannelValues {
   friend bool operator==(const ChannelValues&, const ChannelValues&) = default;
 };
 
-// What an update has changed in a brick: in which channels, and where. Of heat by itself: it changes nearly
-// everywhere, and shifts no surface.
+// Tells in which channels an update has changed a brick, and where. Heat has a part of its own, because it
+// changes nearly everywhere and shifts no surface.
 struct BrickChange {
   std::uint8_t channels = 0;
   BrickPart matter, heat;
@@ -63,25 +63,25 @@ class CellFields : public ChannelValues {
   static constexpr std::int32_t kMixed = -1;
 
   CellFields() = default;
-  explicit CellFields(const state::Grid& size);  // an empty volume's
+  explicit CellFields(const state::Grid& size);  // fields of an empty volume
 
   state::Grid grid, bricks;
 
   struct Wanted {
-    int smooth = 0;     // how much the terraces of puddles are smoothed, 0: not at all
-    bool heat = false;  // false: it is 0 everywhere
+    int smooth = 0;     // smoothing of the terraces of puddles, 0 for none
+    bool heat = false;  // if false, the heat is 0 everywhere
   };
-  // Takes over another state of the same size, as far as it is not known to be what it was.
+  // Takes over another state of the same size. Parts that are known to be unchanged are left out.
   void update(const state::Volume& volume, const state::ChangedBricks::Seen& seen, const Wanted& wanted,
               const scene::Terrain& terrain, cpu::Workers& workers, const Loops& with = loops());
 
-  // What the last update has changed: the bricks in ascending order, and what in each of them.
+  // These tell what the last update has changed. The bricks come in ascending order.
   const std::vector<std::uint32_t>& changed() const { return changed_; }
   const BrickChange& change(std::uint32_t brick) const { return changes_[brick]; }
 
   const Columns& columns() const { return columns_; }
 
-  // The one value that a channel has in all of a brick, or kMixed.
+  // Returns the one value that a channel has in all of a brick, or kMixed.
   std::int32_t uniform(int channel, std::size_t brick) const {
     return uniform_[static_cast<std::size_t>(channel)][brick];
   }
@@ -94,12 +94,13 @@ class CellFields : public ChannelValues {
  private:
   friend class BrickWriter;
   bool same_terrain(const scene::Terrain& terrain) const;
-  // The channels of matter in the bricks of a slice that are marked; which columns must be looked at anew.
+  // Takes over the channels of matter in the marked bricks of a slice. Notes in `news` which columns must be
+  // looked at anew.
   template <class Marked>
   void take_matter(const state::Volume& volume, int bz, const Marked& marked, Columns::News& news,
                    const Loops& with);
-  // Then their intensity, and that of bricks whose columns have another plan. `changed` gets those in which
-  // any channel is another.
+  // Writes their intensity afterwards, and that of bricks whose columns have another plan. `changed` gets the
+  // bricks in which any channel differs.
   void write_intensities(const state::Volume& volume, int bz, const Columns::News& news,
                          const std::vector<Extent>& another, const Loops& with,
                          std::vector<std::uint32_t>& changed);
@@ -113,7 +114,7 @@ class CellFields : public ChannelValues {
   std::vector<std::uint32_t> changed_;
 };
 
-// The fields of a volume without a field before it.
+// Returns the fields of a volume that are computed without earlier ones.
 CellFields cell_fields(const state::Volume& volume, int smooth = 0, const scene::Terrain& terrain = {});
 
 }  // namespace voxmelt::render

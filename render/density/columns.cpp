@@ -11,12 +11,12 @@ namespace {
 
 using rule::kOne;
 
-constexpr std::int32_t kFilm = kOne * 15 / 100;  // a film of this amount counts as fully wet
-constexpr int kLevelPasses = 4;                  // passes along the surface of puddles for one in space
-constexpr int kMostLevelPasses = 12;             // ... more would flatten domes
-constexpr std::int32_t kSink = kOne * 4 / 10;    // how far the surface sinks into dry ground beside matter
-constexpr std::int32_t kDive = kOne;             // ... and one cell further out
-constexpr std::uint8_t kFarther = kGroundReach + 1;  // than any column that is filled
+constexpr std::int32_t kFilm = kOne * 15 / 100;      // a film of this amount counts as fully wet
+constexpr int kLevelPasses = 4;                      // passes along the surface of puddles for one in space
+constexpr int kMostLevelPasses = 12;                 // at most; more would flatten domes
+constexpr std::int32_t kSink = kOne * 4 / 10;        // sink of the surface into dry ground beside matter
+constexpr std::int32_t kDive = kOne;                 // sink one cell further out
+constexpr std::uint8_t kFarther = kGroundReach + 1;  // distance beyond any column that is filled
 
 }  // namespace
 
@@ -56,7 +56,7 @@ class Columns::Finder {
   static bool covered(const Stand& stand) { return stand.bed > 0 && (stand.film > 0 || stand.obstacle); }
 
  private:
-  // The first cell of each of eight columns that is not inert, and the cell above the last one that is.
+  // Finds the first cell of each of eight columns that is not inert, and the cell above the last inert one.
   void find_inert(int bx, int z, int count) {
     const state::Grid& grid = volume_.grid;
     const auto eight = [&](int y) {
@@ -93,7 +93,7 @@ class Columns::Finder {
     stand.obstacle = stand.bed < volume_.grid.y && volume_.inert.test(x, stand.bed, z);
   }
 
-  // What rests on the bed, and the level of the liquid that rests on ground or obstacle under open air.
+  // Finds the matter on the bed, and the level of the liquid that rests on ground or obstacle under open air.
   void find_matter(int x, int z, Found& found) {
     const std::size_t c = columns_.at(x, z);
     Stand& stand = columns_.stands_[c];
@@ -143,7 +143,7 @@ class Columns::Finder {
 
  private:
   const state::Volume& volume_;
-  const scene::Terrain* terrain_;  // null where there is none
+  const scene::Terrain* terrain_;  // null if there is none
   Columns& columns_;
 };
 
@@ -241,7 +241,7 @@ const std::vector<Extent>& Columns::update(const state::Volume& volume, int smoo
   return another_;
 }
 
-// Distances of largest |dx|, |dz|, along x and then along z. A wet column reaches kGroundReach columns.
+// Finds distances of largest |dx|, |dz|, along x and then along z. A wet column reaches kGroundReach columns.
 void Columns::find_distances(const ColumnBox& box) {
   if (box.empty()) return;
   const ColumnBox wide = box.widened(kGroundReach, grid_.x, grid_.z);
@@ -289,10 +289,10 @@ void Columns::find_plans(int bx, int bz) {
         const std::int32_t wet = stand.obstacle ? kOne : stand.film;
         const std::int32_t sink = distances_[c] < kGroundReach ? kSink - kSink * wet / kOne : kDive;
         plan.rise = stand.offset - sink;
-        if (stand.obstacle) plan.rise = std::max(plan.rise, 0);  // it stands without a gap
+        if (stand.obstacle) plan.rise = std::max(plan.rise, 0);  // an obstacle stands without a gap
       }
-      // The liquid on the bed is also moved by the part of a cell by which the bed lies above or below its
-      // cell's top face; otherwise the terraces of the voxelised ground show through its surface.
+      // The bed lies above or below its cell's top face by a part of a cell. The liquid on it is moved by the
+      // same part. Otherwise the terraces of the voxelised ground would show through its surface.
       const bool on_bed = stand.floor == stand.bed && plan.rise != Plan::kNoGround;
       const std::int32_t shift = shifts_[c] + (on_bed ? plan.rise : 0);
       if (stand.end > stand.floor && (on_bed || (stand.floor > stand.bed && shift != 0))) {
@@ -303,7 +303,7 @@ void Columns::find_plans(int bx, int bz) {
       Plan& old = plans_[c];
       planned.add(plan.low(), plan.high());
       if (plan == old) continue;
-      // Where both fill the ground, only its uppermost cells differ.
+      // If both fill the ground, only its uppermost cells differ.
       const bool both = plan.rise != Plan::kNoGround && old.rise != Plan::kNoGround;
       another.add(both ? std::max(std::min(plan.bed, old.bed) - 2, 0) : std::min(plan.low(), old.low()),
                   std::max(plan.high(), old.high()));

@@ -1,8 +1,8 @@
-// What stands on each column of the grid, and how it is drawn: how far the ground is filled, and by how much
-// the puddle on it is moved.
+// Each column of the grid holds something, and is drawn by a plan. The plan says how far the ground is
+// filled, and by how much the puddle on it is moved.
 //
-// The ground is the inert cells that reach up from y = 0, no higher than the terrain where that is known.
-// Every other inert cell is part of an obstacle, which is drawn like a solid.
+// The ground is the inert cells that reach up from y = 0, no higher than the terrain if that is known. Every
+// other inert cell is part of an obstacle, which is drawn like a solid.
 #pragma once
 
 #include <cstddef>
@@ -20,34 +20,34 @@ namespace voxmelt::render {
 
 inline constexpr int kGroundReach = 2;  // columns around matter whose ground is filled
 
-// Heights below one cell in rule::kOne.
+// Describes what stands on a column. Heights below one cell are in rule::kOne.
 struct Stand {
   std::int32_t bed = 0;     // cells of ground, counted up from y = 0
   std::int32_t top = 0;     // the first cell above ground and obstacles
   std::int32_t floor = 0;   // the cell in which the puddle begins: on the bed, or else on the obstacle
   std::int32_t end = 0;     // the first cell from there on that is not liquid
-  std::int32_t offset = 0;  // of the true ground from the top face of its cell
+  std::int32_t offset = 0;  // from the top face of its cell to the true ground
   std::int32_t film = 0;    // 0 dry ground .. kOne: covered by at least a thin film
-  bool obstacle = false;    // one stands on the bed itself
+  bool obstacle = false;    // true if an obstacle stands on the bed itself
   friend bool operator==(const Stand&, const Stand&) = default;
 };
 
-// What is written into the cells of a column beyond its matter and obstacles.
+// Describes what is written into the cells of a column beyond its matter and obstacles.
 struct Plan {
   static constexpr std::int32_t kNoGround = INT32_MIN;
 
-  std::int32_t bed = 0, rise = kNoGround;  // the ground is filled up to the bed and so much more
-  std::int32_t floor = 0, end = 0;         // of the puddle, which is moved; floor = end: there is none
-  std::int32_t shift = 0;                  // by so much
+  std::int32_t bed = 0, rise = kNoGround;  // the ground is filled to the bed plus the rise
+  std::int32_t floor = 0, end = 0;         // the puddle that is moved; none if floor = end
+  std::int32_t shift = 0;                  // distance by which the puddle is moved
   friend bool operator==(const Plan&, const Plan&) = default;
 
   bool puddle() const { return floor < end; }
-  // The cells from low to high - 1 are all that this writes.
+  // It writes no cells but those from low to high - 1.
   std::int32_t low() const { return rise != kNoGround ? 0 : puddle() ? floor - 1 : INT32_MAX; }
   std::int32_t high() const;
 };
 
-// Cells of a column of bricks: from low to high.
+// Bounds cells of a column of bricks, from low to high.
 struct Extent {
   std::int32_t low = INT32_MAX, high = INT32_MIN;
   bool empty() const { return low >= high; }
@@ -57,20 +57,20 @@ struct Extent {
 class Columns {
  public:
   Columns() = default;
-  explicit Columns(const state::Grid& grid);  // of an empty volume
+  explicit Columns(const state::Grid& grid);  // columns of an empty volume
 
-  // What the next update has to look at. `brick` is one of the columns of bricks, [z][x].
-  enum Look : std::uint8_t { kNothing, kMatter, kInert };  // kInert: inert cells too
+  // Tells the next update what to look at. `brick` is one of the columns of bricks, [z][x].
+  enum Look : std::uint8_t { kNothing, kMatter, kInert };  // kInert covers inert cells, too
   struct News {
     std::vector<std::uint8_t> look;  // per column of bricks
-    bool everything = false;         // other terrain, or other smoothing
+    bool everything = false;         // set by another terrain or another smoothing
   };
 
-  // Brings all up to date. Returns for each column of bricks the cells whose plan is another.
+  // Brings everything up to date. Returns for each column of bricks the cells whose plan differs.
   const std::vector<Extent>& update(const state::Volume& volume, int smooth, const scene::Terrain& terrain,
                                     const News& news, cpu::Workers& workers, const Loops& with);
 
-  // Does the ground still have the height that it had, as far as the marked brick holds it?
+  // Tells whether the ground kept its height, as far as the marked brick holds it.
   bool same_offsets(const state::Volume& volume, const state::Grid& brick) const;
 
   std::size_t at(int x, int z) const {
@@ -81,13 +81,12 @@ class Columns {
   }
   const Stand& stand(std::size_t column) const { return stands_[column]; }
   const Plan& plan(std::size_t column) const { return plans_[column]; }
-  const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // all that its plans write
-  std::int32_t read_to(std::size_t brick) const {
-    return read_to_[brick];
-  }  // the cells that stands depend on
+  const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // cells that its plans write
+  // Returns the end of the cells on which stands depend.
+  std::int32_t read_to(std::size_t brick) const { return read_to_[brick]; }
   bool has_obstacles(std::size_t brick) const { return obstacles_[brick] != 0; }
   bool has_obstacles() const;
-  const std::vector<std::int32_t>& ground() const { return ground_; }    // [z][x], 1/4096 cell; 0: none
+  const std::vector<std::int32_t>& ground() const { return ground_; }    // [z][x], 1/4096 cell, 0 for none
   const std::vector<std::int32_t>& wetness() const { return wetness_; }  // [z][x], 0..4096
 
   friend bool operator==(const Columns& a, const Columns& b) {
@@ -105,9 +104,9 @@ class Columns {
 
   state::Grid grid_, bricks_;
   std::vector<Stand> stands_;
-  PuddleLevels levels_;  // empty where puddles are not smoothed
+  PuddleLevels levels_;  // empty if puddles are not smoothed
   std::vector<std::int32_t> shifts_;
-  std::vector<std::uint8_t> distances_;  // to the nearest wet column, up to kGroundReach + 1: farther
+  std::vector<std::uint8_t> distances_;  // to the nearest wet column, at most kGroundReach + 1
   std::vector<Plan> plans_;
   std::vector<std::int32_t> ground_, wetness_;
   std::vector<Extent> planned_, another_;
@@ -115,7 +114,8 @@ class Columns {
   std::vector<std::uint8_t> obstacles_;
 };
 
-// Heights for every column of the grid: only then a terrain says what is ground. All zero: nothing is.
+// Tells whether a terrain has a height for every column of the grid. Only then it says what is ground. If all
+// heights are zero, no cell is ground.
 bool fits(const scene::Terrain& terrain, const state::Grid& grid);
 
 }  // namespace voxmelt::render

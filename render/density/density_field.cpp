@@ -14,7 +14,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
   const bool other = !(volume.grid == grid()) || look.glow != glow_;
-  if (other) {  // everything starts again as the field of an empty volume
+  if (other) {  // everything starts again from the field of an empty volume
     cells_ = CellFields(volume.grid);
     filtered_ = ChannelValues(volume.grid.cells());
     dirty_.assign(bricks().cells(), 0);
@@ -51,7 +51,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   return static_cast<int>(refreshed_.size());
 }
 
-// What an update must filter: everything that the filter reaches from what has changed.
+// Finds what an update must filter. The filter reaches all of that from a change.
 void DensityField::find_dirty(bool all) {
   std::fill(dirty_.begin(), dirty_.end(), all ? kAllChannels : 0);
   std::fill(parts_.begin(), parts_.end(),
@@ -76,7 +76,7 @@ void DensityField::find_dirty(bool all) {
     const state::Grid brick{i % bricks().x, i / bricks().x % bricks().y, i / bricks().x / bricks().y};
     if (change.heat.any()) spread(brick, change.heat, wide, flag_of(kHeat));
     if (!change.matter.any()) continue;
-    // The intensity is filtered by shares of other channels.
+    // The intensity is filtered by the shares of other channels.
     const auto flags = static_cast<std::uint8_t>((change.channels & ~flag_of(kHeat)) | flag_of(kIntensity));
     spread(brick, change.matter, wide, flags);
   }

@@ -1,8 +1,9 @@
-// The scalar field that is drawn: filtered intensity and what goes with it, kept up to date brick by brick
-// (docs/picture/field.md).
+// The renderer draws this scalar field. It holds the filtered intensity and the other channels, and is kept
+// up to date brick by brick (docs/picture/field.md).
 //
-// The surface is where the filtered intensity is half of kFull. For a column of full cells with a part-filled
-// cell on top this lies within a tenth of a cell of the column's height, so smooth amounts look smooth.
+// The surface lies at the places with a filtered intensity of half of kFull. For a column of full cells with
+// a part-filled cell on top, this is within a tenth of a cell of the column's height. So smooth amounts look
+// smooth.
 //
 // Liquid is filtered more than solid (look.smooth, look.smooth_solid). The filtered share of liquid in the
 // matter around decides which of the two holds. So the one passes into the other without a seam. A solid
@@ -26,17 +27,20 @@ namespace voxmelt::render {
 
 class DensityField {
  public:
-  // Takes over a new state. Only bricks in which something changed, and what the filter reaches from there,
-  // are filtered again; the result is the same, bit for bit, as that of a fresh field, on any number of
-  // threads. A volume that is told its changes (Volume::changed) is read only where it has changed; any other
-  // volume, size, look or terrain is read anew. Returns the number of bricks filtered. Inert cells above the
-  // terrain are obstacles; where it does not fit the volume, those above any gap are.
+  // Takes over a new state and returns the number of bricks filtered. Only bricks that the filter reaches
+  // from a change are filtered again. The result has the same bits as a fresh field, on any number of
+  // threads.
+  //
+  // If a volume is told its changes (Volume::changed), it is read only where it has changed. Any other
+  // volume, size, look or terrain is read anew. Inert cells above the terrain are obstacles. If the terrain
+  // does not fit the volume, those above any gap are.
   int update(const state::Volume& volume, const scene::Look& look, const scene::Terrain& terrain = {},
              int threads = 1, const Loops& with = loops());
 
-  // The bricks that the last update has filtered, ascending: elsewhere nothing below has changed.
+  // Returns the bricks that the last update has filtered, in ascending order. Elsewhere the values below are
+  // unchanged.
   const std::vector<std::uint32_t>& refreshed() const { return refreshed_; }
-  // Where in such a brick something may have changed.
+  // Tells where in such a brick something may have changed.
   const DirtyPart& refreshed_part(std::uint32_t brick) const { return parts_[brick]; }
 
   const state::Grid& grid() const { return cells_.grid; }
@@ -44,8 +48,8 @@ class DensityField {
   const Values<std::uint16_t>& intensity() const { return filtered_.intensity; }
   const Values<std::uint16_t>& solid() const { return filtered_.solid; }
   const Values<std::uint16_t>& liquid() const { return filtered_.liquid; }
-  const Values<std::uint16_t>& heat() const { return filtered_.heat; }  // 0 where the look does not glow
-  const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty: there is none
+  const Values<std::uint16_t>& heat() const { return filtered_.heat; }          // 0 if the look does not glow
+  const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty if there is none
   const std::vector<std::int32_t>& ground() const { return cells_.columns().ground(); }    // 1/4096 cell
   const std::vector<std::int32_t>& wetness() const { return cells_.columns().wetness(); }  // 0..4096
   const CellFields& cells() const { return cells_; }                                       // before filtering
@@ -61,8 +65,8 @@ class DensityField {
   bool glow_ = false;
   state::ChangedBricks::Seen seen_;
   BrickFlags dirty_;                // channels to filter
-  std::vector<DirtyPart> parts_;    // where in a brick
-  std::vector<std::uint8_t> rows_;  // [z][y] of bricks: something in it is dirty
+  std::vector<DirtyPart> parts_;    // parts of bricks to filter
+  std::vector<std::uint8_t> rows_;  // [z][y] of bricks, 1 if something in the row is dirty
   std::vector<int> dirty_rows_;
   std::vector<BrickFilter> filters_;  // one for each part of the rows
   std::vector<std::uint32_t> refreshed_;

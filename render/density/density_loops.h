@@ -1,4 +1,4 @@
-// The loops, written once over groups of eight cells, in the vector types that gcc and clang have for any
+// The loops are written once over groups of eight cells, in the vector types that gcc and clang have for any
 // processor. Everything is a template over the instruction set, so that the linker cannot take a function of
 // one for another's.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace voxmelt::render {
 
-// For code of an instruction set that must not be shared with others.
+// Holds the code of one instruction set, which must not be shared with others.
 template <class Arch>
 struct DensityLoops {
   static constexpr int kGroup = 8;
@@ -31,14 +31,14 @@ struct DensityLoops {
   [[gnu::always_inline]] static void store(const V& from, T* to) {
     std::memcpy(to, &from, sizeof(V));
   }
-  // The conversion is element by element: g++ 12 makes one instruction of it, but five of a conversion of
-  // the vector.
+  // Converts element by element. g++ 12 makes one instruction of this, but five of a conversion of the
+  // vector.
   template <class To>
   [[gnu::always_inline]] static void load_as(To& to, const std::uint16_t* p) {
     to = To{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]};
   }
 
-  // The first `count` cells at most; zeros for the others, and where `cells` is null.
+  // Loads the first `count` cells at most. The others become zeros, and all of them if `cells` is null.
   [[gnu::always_inline]] static void load_some(U16& to, const std::uint16_t* cells, int count) {
     to = U16{};
     if (cells == nullptr) return;
@@ -48,7 +48,7 @@ struct DensityLoops {
       for (int lane = 0; lane < count; ++lane) to[lane] = cells[lane];
   }
 
-  // Some cells of a row, and the other lanes 0.
+  // Stores the first `count` cells, at most a group.
   [[gnu::always_inline]] static void store_some(const U16& from, std::uint16_t* cells, int count) {
     if (count >= kGroup)
       store(from, cells);
@@ -72,11 +72,11 @@ struct DensityLoops {
     return (halves[0] | halves[1]) != 0;
   }
 
-  // The masks of a brick's rows, and of all of it.
+  // Holds the masks of a brick's rows, and of all of it.
   struct Rows {
     std::uint64_t solids[kRows], liquids[kRows], any_solid = 0, any_liquid = 0;
   };
-  // What is kept lies far apart in memory: it is asked for in time.
+  // Reads the masks. The kept values lie far apart in memory, so they are prefetched here.
   template <bool kHeat>
   [[gnu::always_inline]] static void take_rows(const MatterBrick& brick, Rows& rows) {
     for (int k = 0; k < brick.z; ++k)
@@ -94,7 +94,7 @@ struct DensityLoops {
       }
   }
 
-  // What has changed in a channel. Most rows are what they were: they are only compared.
+  // Collects the changes in a channel. Most rows are unchanged, and they are only compared.
   template <bool kWhole>
   struct ChannelChange {
     U16 lanes{};
@@ -162,8 +162,8 @@ struct DensityLoops {
     return brick.x == kGroup ? matter_of<true, false>(brick) : matter_of<false, false>(brick);
   }
 
-  // (a + 2 b + c) / 4 to nearest, halves upwards. It does not leave 16 bits: the mean of a and c is rounded
-  // down, and the mean of that and b up.
+  // Computes (a + 2 b + c) / 4 to nearest, with halves upwards. It does not leave 16 bits, because the mean
+  // of a and c is rounded down, and the mean of that and b up.
   [[gnu::always_inline]] static void average(const std::uint16_t* a, const std::uint16_t* b,
                                              const std::uint16_t* c, int count, std::uint16_t* to) {
     VOXMELT_INDEPENDENT
@@ -173,7 +173,7 @@ struct DensityLoops {
     }
   }
 
-  // Along z into one half of `room`, from there along y into the other half, from there along x.
+  // Filters along z into one half of `room`, from there along y into the other half, and from there along x.
   static void low_pass(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
                        std::uint16_t* room) {
     const int wide = (x + 2 + kLanes - 1) / kLanes * kLanes, own = (x + kLanes - 1) / kLanes * kLanes;
@@ -197,9 +197,9 @@ struct DensityLoops {
     }
   }
 
-  // Directly above a solid, the liquid's share is about 0.35 with a film of half a cell, and 0.9 with one of
-  // two cells. The quotient is below 2^7 and its numerator below 2^23: in single precision, rounded down, it
-  // is exact.
+  // Computes the weights. Directly above a solid, the liquid's share is about 0.35 with a film of half a
+  // cell, and 0.9 with one of two cells. The quotient is below 2^7 and its numerator below 2^23. In single
+  // precision, rounded down, it is exact.
   static void weights(const std::uint16_t* liquid, const std::uint16_t* solid, const std::uint16_t* obstacle,
                       int count, std::uint16_t* weights) {
     for (int i = 0; i < count; i += kGroup) {
@@ -237,13 +237,14 @@ struct DensityLoops {
     }
   }
 
-  // How much of a difference between neighbours counts: all up to one cell, nothing from two.
+  // Returns how much of a difference between neighbours counts. All of it counts up to one cell, and nothing
+  // from two.
   [[gnu::always_inline]] static std::int32_t share(std::int32_t difference) {
     const std::int32_t size = (difference < 0 ? -difference : difference) >> 4;
     const std::int32_t left = 8192 - size;
     return left < 0 ? 0 : left > 4096 ? 4096 : left;
   }
-  // In 32 bits: where a share is not 0 both differences are below 2^17.
+  // Fits 32 bits. If a share is not 0, both differences are below 2^17.
   [[gnu::always_inline]] static std::int32_t bend(std::int32_t before, std::int32_t here,
                                                   std::int32_t after) {
     const std::int32_t down = before - here, up = after - here;

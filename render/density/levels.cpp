@@ -9,13 +9,14 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::int32_t kMostShift = rule::kOne / 4;
-constexpr int kFractionBits = 4;  // heights are kept to this part of a unit between passes
+constexpr int kFractionBits = 4;  // fraction bits of heights between passes
 
 // Stands for a column without a puddle. It is farther below any other level than a cliff, and yet no
 // difference overflows.
 constexpr std::int32_t kAbyss = -(1 << 29);
 
-// The levels of a box with a border of columns without puddle, and where in each row the puddles are.
+// Holds the levels of a box with a border of columns without puddle. It knows the span of the puddles in each
+// row.
 class Sheet {
  public:
   Sheet(const PuddleLevels& levels, const ColumnBox& box)
@@ -36,7 +37,8 @@ class Sheet {
     next_ = now_;
   }
 
-  // The 3x3 binomial filter where all neighbours count. An abyss stays one: nothing near it counts.
+  // Applies the 3x3 binomial filter, as far as neighbours count. An abyss stays one, because nothing near it
+  // counts.
   void smooth(const Loops& with) {
     for (const Span& span : puddles_)
       with.smooth_levels({now_.data() + at(span.first, span.z - 1), now_.data() + at(span.first, span.z),
@@ -76,7 +78,7 @@ ColumnBox ColumnBox::widened(int columns, int x, int z) const {
           std::min(high_z + columns, z)};
 }
 
-// What lies beyond the wider box is wrong there, and moves in by one column with each pass.
+// Values beyond the wider box are wrong there. The error moves in by one column with each pass.
 void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
                  std::vector<std::int32_t>& shifts, const Loops& with) {
   if (box.empty()) return;

@@ -37,7 +37,7 @@ void LowPass::load(const Values<std::uint16_t>& from, const CellBox& box, int pa
   }
 }
 
-// Also fills in what lies outside the grid.
+// Copies the cells of the box, and fills in those outside the grid.
 void LowPass::copy(const Values<std::uint16_t>& from) {
   const int inside = std::clamp(origin_.x, 0, grid_.x - 1), end = std::min(origin_.x + x_, grid_.x);
   const int before = inside - origin_.x, after = origin_.x + x_ - end;

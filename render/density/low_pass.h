@@ -1,7 +1,8 @@
-// The low-pass filter of the paper's section 5: separable binomial 1-2-1 along z, y and x, repeated.
+// The low-pass filter is that of the paper's section 5, a separable binomial 1-2-1 along z, y and x,
+// repeated.
 //
-// Cells outside the grid repeat the nearest cell inside; every axis of a pass rounds once, to nearest. What
-// is filtered depends on the cells alone, not on the pieces in which it is done.
+// Cells outside the grid repeat the nearest cell inside. Every axis of a pass rounds once, to nearest. The
+// result depends on the cells alone, not on the pieces in which it is computed.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +15,28 @@
 namespace voxmelt::render {
 
 inline constexpr int kMaxPasses = 6;
-inline constexpr int kMostBricks = 8;  // side by side, filtered at once
+inline constexpr int kMostBricks = 8;  // bricks side by side, filtered at once
 
-// Filters a few bricks side by side, in memory that stays in a cache. One for each thread.
+// Filters a few bricks side by side, in memory that stays in a cache. Each thread has one.
 class LowPass {
  public:
   explicit LowPass(const state::Grid& grid);
 
-  // Takes the cells of a box, at most kMostBricks bricks along x and one along y and z, and as much around
-  // them as `passes` ask. `from` must not change meanwhile.
+  // Takes the cells of a box, at most kMostBricks bricks along x and one along y and z. It takes as much
+  // around them as `passes` ask for. `from` must not change meanwhile.
   void load(const Values<std::uint16_t>& from, const CellBox& box, int passes);
-  // Carries on to `passes` passes in all, at most as many as asked for.
+  // Continues to `passes` passes in all. These may not exceed those given to load().
   void advance(int passes, const Loops& with = loops());
-  // What the passes made so far gave, at cell (x, y, z) of the grid and rightward, within the bricks.
+  // Returns the result of the passes so far, at cell (x, y, z) of the grid and rightward, within the bricks.
   const std::uint16_t* at(int x, int y, int z) const;
 
  private:
   void copy(const Values<std::uint16_t>& from);
 
   state::Grid grid_;
-  state::Grid origin_;                 // the cell of the grid that is cell 0 of what is here
-  int x_ = 0, y_ = 0, z_ = 0;          // sides of what is here
-  int done_ = 0;                       // passes
+  state::Grid origin_;                 // grid cell of cell 0 here
+  int x_ = 0, y_ = 0, z_ = 0;          // sides of the current block
+  int done_ = 0;                       // passes made so far
   Block<const std::uint16_t> here_{};  // in the grid's own values or in block_
   std::unique_ptr<std::uint16_t[]> block_;
   std::unique_ptr<std::uint16_t[]> room_;

@@ -1,5 +1,5 @@
-// One value per cell of a grid, in the order of Grid::index. All begin as zero, and what was never written
-// takes no memory. Up to kBeyond values may be read past the end; they are zero.
+// There is one value per cell of a grid, in the order of Grid::index. All begin as zero, and values that were
+// never written take no memory. Up to kBeyond values may be read past the end, and they are zero.
 #pragma once
 
 #include <cstddef>

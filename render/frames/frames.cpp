@@ -10,7 +10,7 @@
 namespace voxmelt::render {
 namespace {
 
-// So many frames wait for an encoder, wait for the film, and are in work.
+// Returns how many frames may wait for an encoder, wait for the film, and be in work.
 constexpr std::size_t kMostAhead = 4, kBytesAhead = std::size_t{64} << 20;
 std::size_t ahead(const Frames::Plan& plan) {
   return std::clamp<std::size_t>(kBytesAhead / std::max<std::size_t>(plan.frame_bytes, 1), 1, kMostAhead);
@@ -71,7 +71,7 @@ void Frames::write_file(const Frame& frame) {
 std::string Frames::finish() {
   files_.wait();
   film_.wait();
-  video_.close();  // so that ffmpeg ends beside the sheet
+  video_.close();  // ffmpeg can now end beside the sheet
   const auto begin = std::chrono::steady_clock::now();
   if (!labels_.empty())
     write_png(folder_ / "contact_sheet.png",

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostShown = 12;
 
-// Each pixel is the mean of four.
+// Returns an image of half the size. Each pixel is the mean of four.
 Image halved(const Image& image) {
   Image half(image.width / 2, image.height / 2);
   for (int y = 0; y < half.height; ++y)
@@ -51,7 +51,7 @@ Image SheetFrames::sheet(const std::vector<std::string>& labels,
   std::vector<std::string> shown_labels;
   for (const std::size_t frame : shown_frames(labels.size())) {
     const auto kept = halves_.find(frame);
-    const bool here = kept != halves_.end() && kept->second.width > 0;  // else it was made in an earlier part
+    const bool here = kept != halves_.end() && kept->second.width > 0;  // otherwise an earlier part made it
     frames.push_back(here ? kept->second : halved(read(frame)));
     shown_labels.push_back(labels[frame]);
   }

@@ -1,4 +1,4 @@
-// The frames that a contact sheet shows, at half their size.
+// The frames of a contact sheet are kept at half their size.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,20 @@
 
 namespace voxmelt::render {
 
-// Which of `count` frames a sheet shows: at most twelve, evenly chosen, the first and the last included.
+// Returns which of `count` frames a sheet shows. At most twelve are chosen evenly, with the first and the
+// last.
 std::vector<std::size_t> shown_frames(std::size_t count);
 
 class SheetFrames {
  public:
-  // Of a run that plans this many frames. An interrupted one makes fewer.
+  // Belongs to a run that plans this many frames. An interrupted one makes fewer.
   explicit SheetFrames(std::size_t planned);
 
   // Keeps the frame if the plan shows it. Any thread may call it.
   void offer(std::size_t frame, const Image& image);
 
-  // All frames were offered, one per label. `read` gives one that the plan did not show.
+  // Makes the sheet once all frames were offered, one per label. `read` gives a frame that the plan did not
+  // show.
   Image sheet(const std::vector<std::string>& labels, const std::function<Image(std::size_t)>& read) const;
 
  private:

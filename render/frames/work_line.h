@@ -1,4 +1,4 @@
-// Items that threads work off, beside the one that brings them.
+// Threads work off items, beside the thread that brings them.
 #pragma once
 
 #include <atomic>
@@ -15,21 +15,21 @@
 
 namespace voxmelt::render {
 
-// Work begins in the order in which items were put. At most `room` of them wait, so a slow line holds up
-// whoever puts, and memory does not grow. Once an item's work has thrown, items that wait are dropped.
+// Begins work in the order in which items were put. At most `room` of them wait. So a slow line holds up the
+// caller of put(), and memory does not grow. Once an item's work has thrown, items that wait are dropped.
 template <class Item>
 class WorkLine {
  public:
   using Work = std::function<void(Item&)>;
 
-  // With no threads put() does the work itself.
+  // Starts the threads. With no threads, put() does the work itself.
   WorkLine(int threads, std::size_t room, Work work) : room_(room), work_(std::move(work)) {
     for (int t = 0; t < threads; ++t) threads_.emplace_back([this] { work_off(); });
   }
   WorkLine(const WorkLine&) = delete;
   WorkLine& operator=(const WorkLine&) = delete;
 
-  // What waits is dropped.
+  // Drops the items that wait.
   ~WorkLine() {
     {
       const std::lock_guard lock(mutex_);
@@ -82,7 +82,7 @@ class WorkLine {
     for (;;) {
       item_came_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
       if (waiting_.empty()) return;
-      {  // the item's memory goes before somebody hears that it is done
+      {  // the item's memory is freed before waiters hear that it is done
         Waiting next = std::move(waiting_.front());
         waiting_.pop_front();
         ++busy_;
@@ -121,7 +121,7 @@ class WorkLine {
   bool closed_ = false;
   std::atomic<bool> failed_{false};
   std::exception_ptr error_;
-  std::vector<std::jthread> threads_;  // last: they end before the rest does
+  std::vector<std::jthread> threads_;  // last, as they must end before the rest does
 };
 
 }  // namespace voxmelt::render

@@ -13,13 +13,14 @@ using picture::Face;
 using picture::kHeight;
 using picture::Vector;
 
-// To nearest, halves upwards; `one` is a power of 2. A sum with 1/2 could round.
+// Rounds to nearest, with halves upwards. `one` is a power of 2. The sum of `exact` and 1/2 could round, so
+// it is avoided.
 std::int64_t fixed(double value, int one) {
   const double exact = value * one, below = std::floor(exact);
   return static_cast<std::int64_t>(below) + (exact - below >= 0.5 ? 1 : 0);
 }
 
-// One filter of three columns along x, then z. Ends repeat themselves.
+// Applies one filter of three columns along x, then z. Ends repeat themselves.
 template <class Filter>
 ColumnHeights filtered(const ColumnHeights& heights, Vector cells, const Filter& filter) {
   ColumnHeights along(heights.size()), both(heights.size());
@@ -92,8 +93,9 @@ void GroundMap::find_slopes() {
     }
 }
 
-// A ray comes nearer to the ground by no more at each sample than its own fall and the largest slopes. The
-// margin covers all roundings of places, weights and heights. All of it counts in 2^-32 cells.
+// Finds the crossing, and leaves out samples that cannot reach the ground. At each sample a ray comes nearer
+// by no more than its own fall and the largest slopes. The margin covers all roundings of places, weights and
+// heights. All of it counts in 2^-32 cells.
 picture::GroundCrossing GroundMap::find(const picture::Ray& ray) const {
   if (empty()) return {};
   const std::int64_t nearer = picture::magnitude(ray.step.x) * slopes_.x +

@@ -1,5 +1,4 @@
-// The ground of a scene as integers: heights, and the texture of rock
-// (docs/picture/ground.md).
+// The ground of a scene is held in integers, with heights and the texture of rock (docs/picture/ground.md).
 #pragma once
 
 #include <array>
@@ -14,24 +13,24 @@
 
 namespace voxmelt::render {
 
-// In 1 / picture::kHeight of a cell, z outermost.
+// Heights are in 1 / picture::kHeight of a cell, z outermost.
 using ColumnHeights = std::vector<std::int32_t>;
 ColumnHeights ground_heights(const scene::Terrain& terrain);
 
 class GroundMap {
  public:
-  // A grid without ground.
+  // Makes a grid without ground.
   GroundMap() = default;
-  // `cells` is the size of the grid, `passes` those of the field's low-pass filter. Heights outside of the
-  // grid are cut off at it.
+  // Makes the ground of a grid. `cells` is its size, and `passes` are those of the field's low-pass filter.
+  // Heights outside of the grid are cut off at it.
   GroundMap(picture::Vector cells, ColumnHeights heights, int passes, const scene::Vec3& color,
             bool textured);
 
-  // Lowers columns under matter; `wetness` is 0 .. kHeight, or empty where all is dry. Costs little where it
-  // is that of the call before. Tells whether anything changed.
+  // Lowers columns under matter. `wetness` is 0 .. kHeight, or empty if all is dry. The call costs little if
+  // the wetness is that of the call before. Returns whether anything changed.
   bool lower(const ColumnHeights& wetness);
 
-  // That of picture::first_ground, with samples left out.
+  // Returns the result of picture::first_ground, with samples left out.
   picture::GroundCrossing find(const picture::Ray& ray) const;
 
   struct Paint {
@@ -40,18 +39,19 @@ class GroundMap {
   };
   Paint paint(const picture::GroundCrossing& crossing) const;
 
-  // The parts, for faster programs.
+  // These give the parts, for faster programs.
   bool empty() const { return highest_ <= 0; }
   picture::Vector cells() const { return cells_; }
-  const ColumnHeights& drawn() const { return drawn_; }  // that rays meet
-  const ColumnHeights& bare() const { return bare_; }    // before the lowering: for normals
-  std::int32_t highest() const { return highest_; }      // of the bare columns
-  // No two columns side by side differ by more, along x and z.
+  const ColumnHeights& drawn() const { return drawn_; }  // heights that rays meet
+  const ColumnHeights& bare() const { return bare_; }    // before the lowering, for normals
+  std::int32_t highest() const { return highest_; }      // highest bare column
+  // Returns the largest differences between columns side by side, along x and z.
   picture::Vector slopes() const { return slopes_; }
   const std::vector<picture::Texel>& texels() const { return texels_; }  // none without texture
   int fineness() const { return fineness_; }
   const picture::Vector& color() const { return color_; }
-  // The noise of bands, and how far they are bent on low_x, high_x, low_z and high_z; none without texture.
+  // These give the noise of bands, and how far they are bent on low_x, high_x, low_z and high_z. There are
+  // none without texture.
   const std::vector<std::int16_t>& bands() const { return bands_; }
   const std::array<std::vector<std::int32_t>, 4>& bends() const { return bends_; }
 
@@ -72,8 +72,8 @@ class GroundMap {
   picture::Vector slopes_;
   int fineness_ = 0;
   std::vector<picture::Texel> texels_;
-  std::vector<std::int16_t> bands_;                 // from below, quarters of a cell
-  std::array<std::vector<std::int32_t>, 4> bends_;  // of the columns of low_x, high_x, low_z, high_z
+  std::vector<std::int16_t> bands_;                 // upwards, by quarters of a cell
+  std::array<std::vector<std::int32_t>, 4> bends_;  // for the columns of low_x, high_x, low_z, high_z
 };
 
 }  // namespace voxmelt::render

@@ -1,4 +1,4 @@
-// The ground that a ray meets and its paint, told to a watcher (render/rule/watch.h).
+// The ground that a ray meets and its paint are told to a watcher (render/rule/watch.h).
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@
 
 namespace voxmelt::render {
 
-// A table of columns as the rule reads it.
+// Returns a table of columns in the form that the rule reads.
 inline auto columns_of(const GroundMap& map, const ColumnHeights& heights) {
   return [&heights, row = map.cells().x](std::int64_t x, std::int64_t z) {
     return heights[static_cast<std::size_t>(z * row + x)];
   };
 }
 
-// That of GroundMap::find. A watcher sees every part that the page looks at, and no sample is left out.
+// Returns the result of GroundMap::find. A watcher sees every part that the page looks at, and no sample is
+// left out.
 template <class Watch>
 picture::GroundCrossing find_ground(const GroundMap& map, const picture::Ray& ray, Watch watch) {
   if constexpr (std::is_same_v<Watch, picture::Silent>) {
@@ -31,7 +32,7 @@ picture::GroundCrossing find_ground(const GroundMap& map, const picture::Ray& ra
   }
 }
 
-// The colour of sides and underside, and around a camera in the ground.
+// Returns the colour of sides and underside, and around a camera in the ground.
 template <class Watch>
 picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& crossing, Watch watch) {
   using picture::Face;
@@ -57,7 +58,7 @@ picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& c
   return picture::cut_color(map.color(), band);
 }
 
-// The colour of the top, and its normal with the relief of rock.
+// Returns the colour of the top, and its normal with the relief of rock.
 template <class Watch>
 GroundMap::Paint top_paint(const GroundMap& map, picture::Vector position, picture::Vector normal,
                            Watch watch) {
@@ -85,7 +86,7 @@ GroundMap::Paint top_paint(const GroundMap& map, picture::Vector position, pictu
   return {{red, green, blue}, picture::roughened(normal, bump_x, bump_z, watch)};
 }
 
-// GroundMap::paint is this, and nobody listens.
+// Returns the paint, and tells it to a watcher. GroundMap::paint is this with a silent one.
 template <class Watch>
 GroundMap::Paint told_paint(const GroundMap& map, const picture::GroundCrossing& crossing, Watch watch) {
   const auto columns = columns_of(map, map.bare());

@@ -1,4 +1,4 @@
-// Many frames in one picture, in reading order.
+// Many frames are put into one picture, in reading order.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace voxmelt::render {
 
 struct SheetStyle {
-  int columns = 0;  // 0: about as many as rows
+  int columns = 0;  // 0 for about as many as rows
   int gap = 6;      // pixels between and around the frames
   Rgb gap_color{255, 255, 255};
   Rgb label_color{70, 74, 84};
 };
 
-// `labels` may be empty or shorter than `frames`. Frames of another size than the first are cut or padded.
-// No frames: an empty picture.
+// Makes the sheet. `labels` may be empty or shorter than `frames`. Frames of another size than the first are
+// cut or padded. Without frames the picture is empty.
 Image contact_sheet(const std::vector<Image>& frames, const std::vector<std::string>& labels,
                     const SheetStyle& style = {});
 

@@ -1,4 +1,4 @@
-// Pictures: rows from the top. Image is of colours in 8-bit sRGB, Image16 of numbers.
+// Pictures have their rows from the top. Image holds colours in 8-bit sRGB, and Image16 holds numbers.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct Image {
 };
 static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
 
-// One number a pixel (a depth), or three (a vector).
+// Holds one number a pixel (a depth), or three (a vector).
 struct Image16 {
   Image16() = default;
   Image16(int w, int h, int c) : width(w), height(h), channels(c) {

@@ -8,7 +8,7 @@
 namespace voxmelt::render {
 namespace {
 
-// Seven rows from the top; the highest of five bits is the leftmost pixel.
+// Holds seven rows from the top. The highest of five bits is the leftmost pixel.
 struct Glyph {
   char character;
   std::array<std::uint8_t, kGlyphHeight> rows;

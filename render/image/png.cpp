@@ -29,7 +29,7 @@ using File = std::unique_ptr<std::FILE, Close>;
                    code == ENOSPC || code == EDQUOT);
 }
 
-// Writes beside the target and renames.
+// Writes a file beside the target and renames it.
 void write_beside(const std::filesystem::path& file, const std::string& bytes) {
   std::error_code unknown;
   if (std::filesystem::is_symlink(file, unknown) ||
@@ -51,7 +51,7 @@ void write_beside(const std::filesystem::path& file, const std::string& bytes) {
   fail(file, "cannot be renamed from " + beside.string() + ": " + renamed.message());
 }
 
-// A PNG file, opened: its size is known.
+// Reads a PNG file. Its size is known once it is open.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file), stream_(std::fopen(file.c_str(), "rb")) {

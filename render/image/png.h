@@ -1,4 +1,4 @@
-// PNG files.
+// Pictures are written to PNG files, and read from them.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace voxmelt::render {
 
-// A picture could not be written or read; the message names the file and the system's reason.
+// A picture could not be written or read. The message names the file and the system's reason.
 class ImageError : public std::runtime_error {
  public:
   explicit ImageError(const std::string& message, bool out_of_space = false)

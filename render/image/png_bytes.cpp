@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kLevel = 1;  // higher ones save a few percent and take up to twice as long
+constexpr int kLevel = 1;  // higher levels save a few percent and take up to twice as long
 
 void append_number(std::string& text, std::uint32_t number) {
   for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xFF);
@@ -33,7 +33,7 @@ struct Free {
   void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
 
-// zlib's format.
+// Packs bytes into zlib's format.
 std::string packed(const Bytes& bytes) {
   const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(kLevel));
   if (!compressor) throw std::bad_alloc();
@@ -43,7 +43,7 @@ std::string packed(const Bytes& bytes) {
   return text;
 }
 
-// Writes the differences of two rows. Returns the sum of their magnitudes, which guesses well how they pack.
+// Writes the differences of two rows. Returns the sum of their magnitudes, which predicts well how they pack.
 int differences(const std::uint8_t* row, const std::uint8_t* other, std::size_t bytes, std::uint8_t* to) {
   int sum = 0;
   for (std::size_t i = 0; i < bytes; ++i) {
@@ -56,10 +56,10 @@ int differences(const std::uint8_t* row, const std::uint8_t* other, std::size_t 
 struct Format {
   int width, height;
   char depth, color;
-  std::size_t pixel;  // bytes
+  std::size_t pixel;  // bytes in a pixel
 };
 
-// read_row(y, to) writes the bytes of a row.
+// Returns the bytes of the file. read_row(y, to) writes the bytes of a row.
 template <class ReadRow>
 std::string file_bytes(const Format& format, bool colors, const ReadRow& read_row) {
   std::string file = "\x89PNG\r\n\x1a\n", header;
@@ -69,7 +69,8 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
   append_chunk(file, "IHDR", header);
   if (colors) append_chunk(file, "sRGB", std::string_view("\0", 1));
 
-  // A row begins with a pixel of zeros. PNG's filter 1 takes the pixel on the left away, and 2 the one above.
+  // A row begins with a pixel of zeros. PNG's filter 1 subtracts the pixel on the left, and filter 2 the one
+  // above.
   const std::size_t bytes = static_cast<std::size_t>(format.width) * format.pixel;
   Bytes row(format.pixel + bytes), above(format.pixel + bytes), by_above(bytes);
   Bytes filtered(static_cast<std::size_t>(format.height) * (bytes + 1));

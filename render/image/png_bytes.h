@@ -1,4 +1,4 @@
-// The bytes of a PNG file, made fast: in a third of libpng's time or less, with at most a tenth more bytes.
+// The bytes of a PNG file are made in a third of libpng's time or less, with at most a tenth more bytes.
 #pragma once
 
 #include <string>
@@ -8,6 +8,6 @@
 namespace voxmelt::render {
 
 std::string png_bytes(const Image& image);    // marked as sRGB
-std::string png_bytes(const Image16& image);  // grey or RGB, marked as nothing: no colours
+std::string png_bytes(const Image16& image);  // grey or RGB; unmarked, as these are no colours
 
 }  // namespace voxmelt::render

@@ -41,7 +41,7 @@ int start_quietly(const std::vector<std::string>& arguments, int input, pid_t& c
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t ours;  // signals that we ignore are none of its business
+  sigset_t ours;  // signals that we ignore get their default in the child
   sigemptyset(&ours);
   sigaddset(&ours, SIGPIPE);
   sigaddset(&ours, SIGXFSZ);
@@ -54,7 +54,7 @@ int start_quietly(const std::vector<std::string>& arguments, int input, pid_t& c
   return error;
 }
 
-// The exit status of a child, or 128 if a signal ended it.
+// Returns the exit status of a child, or 128 if a signal ended it.
 int status_of(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
@@ -70,7 +70,7 @@ std::vector<std::string> raw_video(int width, int height) {
           "-video_size", std::to_string(width) + "x" + std::to_string(height)};
 }
 
-// Whether ffmpeg encodes a black picture.
+// Tells whether ffmpeg encodes a black picture.
 bool encodes(const std::string& codec) {
   std::vector<std::string> arguments = raw_video(64, 64);
   for (const char* argument : {"-i", "/dev/zero", "-frames:v", "1", "-pix_fmt", "yuv420p", "-c:v"})
@@ -107,7 +107,7 @@ void VideoWriter::start(int width, int height) {
   for (const char* argument : {"-movflags", "+faststart", "-f", "mp4"}) arguments.emplace_back(argument);
   arguments.push_back(beside_.string());
 
-  // A socket, not a pipe: a write to an ffmpeg that is gone is an error then, and no signal.
+  // This is a socket and not a pipe. So a write to an ffmpeg that is gone is an error, and no signal.
   int ends[2];
   int error = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
   if (error == 0) {
@@ -129,7 +129,7 @@ void VideoWriter::add(const Image& frame) {
   while (left > 0 && to_ffmpeg_ >= 0) {
     const ssize_t sent = send(to_ffmpeg_, bytes, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) {  // it is gone: its exit status says why, if it is not 0
+    if (sent < 0) {  // ffmpeg is gone; its exit status says why, if it is not 0
       problem_ = std::string("ffmpeg takes no more frames: ") + std::strerror(errno);
       return close();
     }

@@ -1,4 +1,4 @@
-// MP4 files, made by the `ffmpeg` program where it is installed.
+// MP4 files are made by the `ffmpeg` program, if it is installed.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::render {
 
-// Hands frames to ffmpeg as they come. It makes an H.264 film, or an MPEG-4 one where H.264 is missing. A
+// Hands frames to ffmpeg as they come. It makes an H.264 film, or an MPEG-4 one if H.264 is missing. A
 // missing film is worth a message, not the end of a run. So nothing here throws, and frames after a problem
 // are ignored.
 class VideoWriter {
@@ -21,13 +21,14 @@ class VideoWriter {
   VideoWriter& operator=(const VideoWriter&) = delete;
   ~VideoWriter();  // without finish() there is no film, and nothing is left
 
-  // Frames have one size. Odd ones lose a row or column, because yuv420p wants even sides.
+  // Adds a frame. All frames have one size. Odd ones lose a row or column, because yuv420p wants even sides.
   void add(const Image& frame);
 
-  // No more frames come. ffmpeg may need a while to end.
+  // Tells ffmpeg that no more frames come. It may need a while to end.
   void close();
 
-  // Renames the film into its place. Returns the reason if there is none: the file's name and "no film: ...".
+  // Renames the film into its place. If there is none, the call returns the file's name and the reason, after
+  // the words "no film: ".
   std::optional<std::string> finish();
 
  private:
@@ -41,7 +42,7 @@ class VideoWriter {
   std::string problem_;
 };
 
-// Is there an `ffmpeg` on the PATH?
+// Tells whether there is an `ffmpeg` on the PATH.
 bool ffmpeg_found();
 
 }  // namespace voxmelt::render

@@ -1,4 +1,4 @@
-// Bytes of light and of what stops it, as data.
+// Bytes of light, and of the matter that stops it, are plain data here.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::render {
 
-// A byte per cell of light, x fastest.
+// Holds a byte per cell of light, x fastest.
 struct LightPlane {
   picture::Vector count;
   std::vector<std::uint8_t> cells;
@@ -23,12 +23,12 @@ struct LightPlane {
   }
 };
 
-// What stops and what sends light.
+// Holds the matter that stops light and the matter that sends it.
 struct LightMatter {
-  LightPlane density, emission;  // emission is empty where nothing glows
+  LightPlane density, emission;  // emission is empty if nothing glows
 };
 
-// Bytes as the ray caster reads them: two words of 64 bits.
+// Holds bytes in the order of the ray caster, as two words of 64 bits.
 struct LightBytes {
   std::uint8_t lamp = 255;
   std::array<std::uint8_t, picture::kSides> open{255, 255, 255, 255, 255, 255};

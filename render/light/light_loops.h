@@ -1,8 +1,8 @@
-// The inner loops of the light (docs/picture/light.md, sections 4 and 5). They are compiled once for each
-// instruction set and chosen at run time; the bits are the same.
+// The inner loops compute the light (docs/picture/light.md, sections 4 and 5). They are compiled once for
+// each instruction set and chosen at run time. All give the same bits.
 //
-// Rows of bytes begin at multiples of kLightLanes bytes from each other, and may be read and written up to
-// the next one.
+// Rows of bytes begin at multiples of kLightLanes bytes from each other. They may be read and written up to
+// the next multiple.
 #pragma once
 
 #include <array>
@@ -19,28 +19,29 @@ inline constexpr int light_row(std::int64_t cells) {
   return static_cast<int>((cells + kLightLanes - 1) / kLightLanes * kLightLanes);
 }
 
-// Some cells of the field that make up whole cells of light, but for those at the end of the grid.
+// Describes some cells of the field. They make up whole cells of light, except at the end of the grid.
 struct LightBlock {
   int x, y, z;             // cells, at most kMost each
-  std::size_t row, slice;  // cells from one to the next
+  std::size_t row, slice;  // cells from one row or slice to the next
   const std::uint16_t *intensity, *liquid, *heat;
-  const std::uint16_t* emission;  // by the temperature, 0 .. 256
+  const std::uint16_t* emission;  // indexed by the temperature, 0 .. 256
   int shift;
   std::size_t to_row, to_slice;  // bytes
   static constexpr int kMost = 128;
 };
 
-// One slice of a sweep from a side, from that before it. Rows `low` to `high` - 1 are computed.
+// Describes one slice of a sweep from a side, which follows from the slice before. Rows `low` to `high` - 1
+// are computed.
 struct SideSlice {
   int u, v, low, high;
-  std::size_t row, row_step;                        // bytes: of a row; from one to the next
-  const std::uint8_t *before, *density, *emission;  // of the slice before; openness: no emission
+  std::size_t row, row_step;                        // bytes in a row; bytes to the next row
+  const std::uint8_t *before, *density, *emission;  // in the slice before; openness has no emission
   std::uint8_t* to;
-  std::uint8_t* changed;  // of each row: 1 if it is not what it was
+  std::uint8_t* changed;  // for each row, 1 if it has changed
   std::uint16_t* room;    // (v + 5) (row + kLightLanes)
 };
 
-// One slice of the lamp's sweep.
+// Describes one slice of the lamp's sweep.
 struct LampSlice {
   int u, v;
   std::size_t row, row_step;
@@ -48,9 +49,9 @@ struct LampSlice {
   std::uint8_t* to;
   std::uint8_t* changed;
   int part_u, part_v;
-  // Rays: `rays` is that of (-1, -1), before the lattice; the window's first one is (at_u, at_v).
+  // `rays` points to the ray (-1, -1), before the lattice. The first ray of the window is (at_u, at_v).
   std::uint16_t* rays;
-  std::uint16_t* room;    // as large as the rays
+  std::uint16_t* room;    // room of the same size as the rays
   std::uint16_t* losses;  // (v + 2) rows of ray_row
   std::size_t ray_row;
   int count_u, count_v, at_u, at_v;
@@ -58,23 +59,24 @@ struct LampSlice {
 };
 
 struct LightLoops {
-  // Bytes of density, without the ground's, and of emission.
+  // These compute bytes of density, without the ground's, and bytes of emission.
   void (*density)(const LightBlock& block, std::uint8_t* to);
   void (*emission)(const LightBlock& block, std::uint8_t* to);
   void (*side)(const SideSlice& slice);
   void (*lamp)(const LampSlice& slice);
-  // to[y][x] = from[x][y]: x * y bytes. Whole rows are written. `changed` as above, of rows of `to`.
+  // Sets to[y][x] = from[x][y], for x * y bytes. Whole rows are written. `changed` tells of the rows of `to`,
+  // as above.
   void (*transpose)(const std::uint8_t* from, std::size_t from_row, int x, int y, std::uint8_t* to,
                     std::size_t to_row, std::uint8_t* changed);
-  // Eight bytes of each of `count` cells, of which `to` points at the first.
+  // Writes eight bytes of each of `count` cells. `to` points at the first cell.
   void (*interleave)(const std::array<const std::uint8_t*, 8>& from, int count, std::uint8_t* to);
 };
 
-// The loops, compiled for an architecture of xsimd (light_sweeps.h).
+// Returns the loops, compiled for an architecture of xsimd (light_sweeps.h).
 template <class Arch>
 LightLoops light_loops_for();
 
-// Those that a processor runs whose best instruction set is this one.
+// Returns the loops for a processor whose best instruction set is this one.
 const LightLoops& light_loops_of(cpu::InstructionSet widest);
 const LightLoops& light_loops();  // the best that this processor can run
 

@@ -10,9 +10,9 @@
 namespace voxmelt::render {
 namespace {
 
-constexpr std::int32_t kHeight = 4096;  // of a cell, in heights of columns
+constexpr std::int32_t kHeight = 4096;  // height of a cell, in units of column heights
 
-// Of liquid that fills its cell: the temperature is in 256 steps.
+// Returns the emission of liquid that fills its cell, by the temperature in 256 steps.
 std::array<std::uint16_t, 257> emission_by_temperature(const picture::Look& look) {
   std::array<std::uint16_t, 257> values;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -22,7 +22,7 @@ std::array<std::uint16_t, 257> emission_by_temperature(const picture::Look& look
   return values;
 }
 
-// Of matter that is no obstacle, by its own.
+// Returns the thinned density of matter that is no obstacle, by its own density.
 std::array<std::uint8_t, 256> thinned_densities(const picture::Look& look, int shift) {
   std::array<std::uint8_t, 256> values;
   const std::int32_t share =
@@ -140,7 +140,7 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
   return changed;
 }
 
-// Obstacles are not clear.
+// Thins all but the obstacles, which are not clear.
 std::uint8_t LightSources::thinned_density(std::uint8_t all, std::uint8_t obstacle) const {
   const int opaque = std::min(all, obstacle);
   return static_cast<std::uint8_t>(opaque + thinned_[static_cast<std::size_t>(all - opaque)]);
@@ -153,7 +153,7 @@ bool LightSources::show(std::size_t cell) {
   return true;
 }
 
-// Columns whose height has changed.
+// Takes over columns whose height has changed.
 bool LightSources::refresh_ground(const std::vector<std::int32_t>& ground) {
   if (ground == ground_) return false;
   const std::size_t columns = static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.z);
@@ -182,7 +182,8 @@ bool LightSources::refresh_ground(const std::vector<std::int32_t>& ground) {
   return changed;
 }
 
-// The cells of light in a column of them, from the lowest height that was or is in it to the highest.
+// Takes over the cells of light in a column of them, from the lowest height that was or is in it to the
+// highest.
 bool LightSources::refresh_earth(std::int64_t x, std::int64_t z, const std::vector<std::int32_t>& ground) {
   const auto end = [&](std::int64_t i, int side) { return std::min<std::int64_t>((i + 1) << shift_, side); };
   const std::int64_t height = std::int64_t{kHeight} << shift_;

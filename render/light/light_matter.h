@@ -1,4 +1,4 @@
-// What stops and what sends light, from the field and the ground (docs/picture/light.md, section 4).
+// The field and the ground give the matter that stops and sends light (docs/picture/light.md, section 4).
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace voxmelt::render {
 
 class LightSources {
  public:
-  // Takes over a field and its ground: the height of each column in 1/4096 cells, [z][x]; empty where there
-  // is none. `refreshed`: bricks of the field that were filtered again since the last call, or null for all.
-  // Another grid or look is read anew. Tells whether any byte has changed.
+  // Takes over a field and its ground, and returns whether any byte has changed. `ground` is the height of
+  // each column in 1/4096 cells, [z][x], and empty if there is none. `refreshed` lists the bricks that were
+  // filtered again since the last call, or is null for all. Another grid or look is read anew.
   bool update(const DensityField& field, const std::vector<std::int32_t>& ground, const picture::Look& look,
               const std::vector<std::uint32_t>* refreshed, const LightLoops& loops = light_loops());
 
@@ -33,7 +33,7 @@ class LightSources {
   bool show(std::size_t cell);
   std::uint8_t thinned_density(std::uint8_t all, std::uint8_t obstacle) const;
 
-  state::Grid grid_{0, 0, 0}, blocks_{0, 0, 0};  // blocks: bricks, or cells of light if those are larger
+  state::Grid grid_{0, 0, 0}, blocks_{0, 0, 0};  // blocks are bricks, or cells of light if larger
   int shift_ = 1;
   bool glow_ = false, clear_ = false;
   std::array<std::uint8_t, 256> thinned_{};  // densities of clear matter

@@ -1,6 +1,6 @@
-// The loops of the light, written once: plain loops over 16-bit numbers, which compilers turn into vectors.
-// Everything is a template over the instruction set, so that the linker cannot take a function of one for
-// another's.
+// The loops of the light are written once, as plain loops over 16-bit numbers, which compilers turn into
+// vectors. Everything is a template over the instruction set, so that the linker cannot take a function of
+// one for another's.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct LightSweeps {
 
   [[gnu::always_inline]] static Word word(int value) { return static_cast<Word>(value); }
 
-  // 0 .. 256
+  // Returns the loss of a density, 0 .. 256.
   [[gnu::always_inline]] static Word loss_of(Byte density) {
     const Word over = density > 12 ? word(density - 12) : Word{0};
     const Word loss = word(word(over * 3) >> 1);
@@ -41,12 +41,12 @@ struct LightSweeps {
   [[gnu::always_inline]] static Word softer(Word a, Word b, Word c) {
     return word(word(a + 30 * b + c + 16) >> 5);
   }
-  // Of numbers of at most 255.
+  // Blends numbers of at most 255.
   [[gnu::always_inline]] static Word blended(Word a, Word b, Word weight) {
     return word(word(a * word(256 - weight) + b * weight + 128) >> 8);
   }
-  // Of numbers of at most 256: the sum of the products may have 17 bits, so its half is taken first. So may a
-  // product with 256.
+  // Blends numbers of at most 256. The sum of the products may have 17 bits, so its half is taken first. A
+  // product with 256 may have 17 bits, too.
   [[gnu::always_inline]] static Word blended_losses(Word a, Word b, Word weight) {
     if (weight == 0) return a;
     const Word p = word(a * word(256 - weight)), q = word(b * weight);
@@ -54,8 +54,8 @@ struct LightSweeps {
     return word(word(half + 64) >> 7);
   }
 
-  // Sums over the cells of each cell of light, shifted. take(index, count, sums): adds up to eight cells of a
-  // row.
+  // Sums over the cells of each cell of light, and shifts the sums. take(index, count, sums) adds up to eight
+  // cells of a row.
   template <class Take>
   [[gnu::always_inline]] static void each_cell(const LightBlock& block, int shift, Byte* to,
                                                const Take& take) {
@@ -65,7 +65,7 @@ struct LightSweeps {
       for (int y = 0; y < block.y; y += side) {
         Byte* const row = to + static_cast<std::size_t>(z >> block.shift) * block.to_slice +
                           static_cast<std::size_t>(y >> block.shift) * block.to_row;
-        std::uint32_t sum = 0;  // of a cell of light wider than a group
+        std::uint32_t sum = 0;  // sum for a cell of light wider than a group
         for (int x = 0; x < block.x; x += kGroup) {
           std::uint32_t sums[kGroup] = {};
           for (int k = z; k < end(z + side, block.z); ++k)
@@ -84,7 +84,7 @@ struct LightSweeps {
       }
   }
 
-  // Eight cells at most; zeros for the others.
+  // Loads eight cells at most. The others become zeros.
   [[gnu::always_inline]] static void load_some(const Word* from, int count, Word (&to)[kGroup]) {
     if (count >= kGroup) {
       std::memcpy(to, from, sizeof to);
@@ -103,8 +103,8 @@ struct LightSweeps {
         });
   }
 
-  // The temperature in 256 steps: the quotient, below 2^8 and of a numerator below 2^24, is never rounded up
-  // to a whole number in single precision.
+  // Sums the emission by the temperature in 256 steps. The quotient is below 2^8 and its numerator below
+  // 2^24. In single precision it is never rounded up to a whole number.
   static void emission(const LightBlock& block, Byte* to) {
     each_cell(
         block, 3 * block.shift,
@@ -142,7 +142,7 @@ struct LightSweeps {
   [[gnu::always_inline]] static void store(const V& from, T* to) {
     std::memcpy(to, &from, sizeof(V));
   }
-  // Element by element, which g++ 12 makes one instruction of.
+  // Loads element by element, which g++ 12 turns into one instruction.
   [[gnu::always_inline]] static void load_bytes(Words& to, const Byte* p) {
     to = Words{p[0], p[1], p[2],  p[3],  p[4],  p[5],  p[6],  p[7],
                p[8], p[9], p[10], p[11], p[12], p[13], p[14], p[15]};
@@ -153,7 +153,7 @@ struct LightSweeps {
     to = (a + e + inner + inner + 4) >> 3;
   }
 
-  // What left a row of the slice before, spread along it.
+  // Computes the light that left a row of the slice before, spread along it.
   template <bool kGlow>
   [[gnu::always_inline]] static void leave(const SideSlice& slice, int v, Word* left, Word* along) {
     constexpr Word kOutside = kGlow ? 0 : 255;
@@ -243,7 +243,7 @@ struct LightSweeps {
     const auto ray = [&](Word* rays, int a, int b) {
       return rays + static_cast<std::size_t>(b + 1) * slice.ray_row + static_cast<std::size_t>(a + 1);
     };
-    // What arrives.
+    // The light arrives.
     for (int v = 0; v < slice.v; ++v) {
       const Word *low = ray(slice.rays, slice.at_u, slice.at_v + v), *high = low + slice.ray_row;
       Byte* const to = slice.to + static_cast<std::size_t>(v) * slice.row_step;
@@ -257,7 +257,7 @@ struct LightSweeps {
       }
       slice.changed[v] = other != 0 ? 1 : 0;
     }
-    // What is lost: of row v between its cells, with a row of nothing before the first and behind the last.
+    // Light is lost in row v between its cells. A row of nothing lies before the first and behind the last.
     const auto losses = [&](int v) { return slice.losses + static_cast<std::size_t>(v + 1) * slice.ray_row; };
     std::memset(losses(-1), 0, slice.ray_row * sizeof(Word));
     std::memset(losses(slice.v), 0, slice.ray_row * sizeof(Word));
@@ -278,7 +278,7 @@ struct LightSweeps {
       VOXMELT_INDEPENDENT
       for (int i = 0; i < window; ++i) to[i] = passed(to[i], blended_losses(here[i], before[i], part_v));
     }
-    // Softer along u into the room, and back along v.
+    // Rays are softened along u into the room, and back along v.
     const int wide = light_row(slice.count_u);
     for (int b = slice.low_v; b < slice.high_v; ++b) {
       const Word* from = ray(slice.rays, 0, b);

@@ -8,7 +8,7 @@ namespace {
 
 using picture::Vector;
 
-constexpr int kReach = 2;  // of the spread, in rows
+constexpr int kReach = 2;  // reach of the spread, in rows
 
 }  // namespace
 
@@ -77,8 +77,8 @@ void LightVolume::resize(const LightMatter& matter, int shift) {
   dirty_ = {std::vector<Span>(slices(x_)), std::vector<Span>(slices(y_)), std::vector<Span>(slices(z_))};
 }
 
-// An empty volume's light is what the planes begin with, so a fresh volume needs no more than what differs
-// from it.
+// Takes over the matter. The planes begin with the light of an empty volume, so a fresh volume needs only the
+// differences.
 bool LightVolume::take_over(const LightMatter& matter, const LightLoops& loops) {
   for (auto& spans : dirty_) std::fill(spans.begin(), spans.end(), Span{});
   const bool density = take_over(matter.density, density_, loops);
@@ -122,8 +122,8 @@ LightVolume::Way LightVolume::way(int axis, bool from_high) const {
   return {false, z_, x_, y_, row_, row_ * y, row_, from_high};
 }
 
-// What a slice gets depends on the one before it alone. So rows are computed that lie near rows which changed
-// there.
+// Sweeps from one side. A slice depends on the one before it alone. So only rows near changed rows of that
+// slice are computed.
 void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emission, Bytes& changed,
                              Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const {
   const int axis = static_cast<int>(side / 2);
@@ -171,9 +171,9 @@ void LightVolume::turn_back(Plane& plane, const Bytes& slices, Bytes& changed,
                       plane.natural.data() + k * y * row_, row_, changed.data() + k * y);
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
-// a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
-// shift.
+// Lays out the rays along the axis of the direction's largest component. Among equals y comes before x, and x
+// before z. A cell at (u, v) of a slice lies between the rays around (u, v) plus the shift. A ray lies
+// between the cells around it less the shift.
 LightVolume::LampRays LightVolume::lamp_rays() const {
   const std::int64_t component[3] = {to_light_.x, to_light_.y, to_light_.z};
   int axis = 1;
@@ -200,14 +200,14 @@ LightVolume::LampRays LightVolume::lamp_rays() const {
   return rays;
 }
 
-// Every so often the rays are kept. So an update begins near the first slice in which something changed.
-// Returns that slice, and the rays before it.
+// Returns the slice at which an update begins, and restores the rays before it. The rays are kept every
+// kKeptEvery slices. So an update begins near the first slice in which something changed.
 int LightVolume::begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep, Span& dark) const {
   const std::size_t size = static_cast<std::size_t>(lamp.count_v + 2) * lamp.row;
   sweep.room.resize(size);
   sweep.losses.resize(static_cast<std::size_t>(lamp.way.v + 2) * lamp.row);
   sweep.rows.assign(static_cast<std::size_t>(lamp.way.v), 0);
-  // What the turned plane held may be of a lamp long ago.
+  // The content of the turned plane may come from an earlier lamp.
   sweep.turned_open.assign(static_cast<std::size_t>(z_), other_lamp ? 1 : 0);
   if (other_lamp) {
     sweep.kept.clear();
@@ -224,7 +224,7 @@ int LightVolume::begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep,
   return begin;
 }
 
-// The rows of a slice that the sweep has changed.
+// Notes the rows of a slice that the sweep has changed.
 void LightVolume::note_lamp_rows(const LampRays& lamp, int slice, Sweep& sweep) const {
   const auto at = static_cast<std::size_t>(lamp.way.at(slice)), rows = static_cast<std::size_t>(y_);
   for (std::size_t i = 0; i < static_cast<std::size_t>(lamp.way.v); ++i) {
@@ -263,7 +263,7 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
   if (way.turned) turn_back(lamp_, sweep.turned_open, sweep.open, loops);
 }
 
-// The rows that some sweep has changed.
+// Interleaves the rows that some sweep has changed.
 void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
   const auto rows = static_cast<std::size_t>(y_);
   workers.run(z_, [&](int z) {

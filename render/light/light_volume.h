@@ -1,7 +1,7 @@
-// The light that arrives in every cell of the grid of light (docs/picture/light.md, sections 4 and 5).
+// A volume holds the light that arrives in every cell of the grid of light (docs/picture/light.md, sections 4
+// and 5).
 //
-// Each sweep keeps what it gave, as planes of bytes. An update goes only through rows that a change can
-// reach.
+// Each sweep keeps its results, as planes of bytes. An update goes only through rows that a change can reach.
 #pragma once
 
 #include <array>
@@ -22,8 +22,9 @@ class LightVolume {
   // `to_light` has the length 2^14.
   LightVolume(const LightMatter& matter, picture::Vector to_light, int shift);
 
-  // Takes over what stops and sends light. Only what has changed since the last call is computed again; the
-  // bytes are those of a fresh volume, for any number of threads. Tells whether any byte may have changed.
+  // Takes over the matter that stops and sends light. Only changes since the last call are computed again.
+  // The bytes are those of a fresh volume, for any number of threads. Returns whether any byte may have
+  // changed.
   bool update(const LightMatter& matter, picture::Vector to_light, int shift, cpu::Workers& workers,
               const LightLoops& loops = light_loops());
 
@@ -35,38 +36,38 @@ class LightVolume {
  private:
   static constexpr std::size_t kSides = picture::kSides;
   using Bytes = std::vector<std::uint8_t>;
-  // Rows low <= v < high of a slice.
+  // Bounds rows low <= v < high of a slice.
   struct Span {
     int low = 0, high = 0;
     bool any() const { return low < high; }
     void add(int v);
     void add(const Span& other);
   };
-  // Rows along x in natural order, [z][y]; or turned, rows along y, [x][z].
+  // Holds bytes twice. In natural order rows lie along x, [z][y], and in turned order along y, [x][z].
   struct Plane {
     Bytes natural, turned;
   };
-  // How a sweep goes through a plane.
+  // Describes how a sweep goes through a plane.
   struct Way {
     bool turned;
     int slices, u, v;  // v: rows of a slice
     std::size_t row, slice_step,
-        row_step;  // bytes: length of a row, from a slice to the next, from a row to the next
+        row_step;  // bytes of a row, to the next slice, to the next row
     bool from_high;
     int at(int slice) const { return from_high ? slices - 1 - slice : slice; }
     std::size_t byte(int slice) const { return static_cast<std::size_t>(at(slice)) * slice_step; }
   };
-  // The lamp's rays before a slice, and the rows of them that may be darker than 255.
+  // Holds the lamp's rays before a slice, and the rows of them that may be darker than 255.
   struct Kept {
     std::vector<std::uint16_t> rays;
     Span dark;
   };
   static constexpr int kKeptEvery = 8;  // slices
-  // What a sweep needs, and tells: one for each side, and one for the lamp.
+  // Holds the room and the results of a sweep. There is one for each side, and one for the lamp.
   struct Sweep {
     std::vector<std::uint16_t> room, rays, losses;
     std::vector<Kept> kept;
-    Bytes rows;                      // of a slice: changed
+    Bytes rows;                      // rows of a slice that changed
     Bytes open, glow;                // rows [z][y] that changed
     Bytes turned_open, turned_glow;  // slices z of turned planes with a change
   };
@@ -82,8 +83,8 @@ class LightVolume {
     int axis;
     Way way;
     std::int32_t slope_u, slope_v;
-    int low_u = 0, low_v = 0, count_u = 0, count_v = 0;  // the first rays, and how many there are
-    std::size_t row = 0;                                 // from a row of rays to the next
+    int low_u = 0, low_v = 0, count_u = 0, count_v = 0;  // first rays, and how many there are
+    std::size_t row = 0;                                 // numbers from a row of rays to the next
   };
   LampRays lamp_rays() const;
   int begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep, Span& dark) const;
@@ -99,8 +100,7 @@ class LightVolume {
   std::vector<LightBytes> cells_;
   Plane density_, emission_, lamp_;
   std::array<Plane, kSides> open_, glow_;
-  std::array<std::vector<Span>, 3>
-      dirty_;  // of each axis and slice: rows in which density or emission changed
+  std::array<std::vector<Span>, 3> dirty_;  // by axis and slice: rows with changed density or emission
   std::array<Sweep, kSides + 1> sweeps_;
   Bytes nothing_;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kDigits = 5;
 
-// The eight bits of a byte as eight bytes, the lowest first in memory.
+// The table turns the eight bits of a byte into eight bytes, the lowest first in memory.
 constexpr auto kBytesOfBits = [] {
   std::array<std::array<std::uint8_t, 8>, 256> values{};
   for (std::size_t bits = 0; bits < values.size(); ++bits)
@@ -18,7 +18,7 @@ constexpr auto kBytesOfBits = [] {
   return values;
 }();
 
-// Blocks as bits: rows along x, in words of 64.
+// Holds blocks as bits. Rows lie along x, in words of 64.
 class Bits {
  public:
   explicit Bits(const state::Grid& blocks)
@@ -31,7 +31,8 @@ class Bits {
   std::uint64_t* row(std::size_t row) { return bits_.data() + row * words_; }
   std::size_t rows() const { return y_ * z_; }
 
-  // What lies beyond the rows' ends may be set, too. It cannot come back farther than it went.
+  // Grows the set bits by one block in every direction. Bits beyond the rows' ends may be set, too. They
+  // cannot come back farther than they went.
   void grow(std::vector<std::uint64_t>& room) {
     room.resize(bits_.size());
     for (std::size_t r = 0; r < rows(); ++r)
@@ -48,7 +49,7 @@ class Bits {
   }
 
  private:
-  // `step` words from a place to the next along an axis, `whole` those of a whole line.
+  // Grows along an axis. There are `step` words from a place to the next, and `whole` words in a whole line.
   static void along(const std::vector<std::uint64_t>& from, std::vector<std::uint64_t>& to, std::size_t step,
                     std::size_t whole) {
     for (std::size_t first = 0; first < from.size(); first += whole) {
@@ -66,8 +67,8 @@ class Bits {
 
 }  // namespace
 
-// As often as a block is still dark when what is occupied grows by one block in every direction. The counts
-// are kept digit by digit.
+// Grows the occupied blocks by one block in every direction, again and again. The distance of a block counts
+// how often it is still dark. The counts are kept digit by digit.
 std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied,
                                           const state::Grid& blocks, int most) {
   Bits grown(blocks);

@@ -1,4 +1,4 @@
-// How far the nearest occupied block is, in blocks and by the largest component.
+// The distance to the nearest occupied block counts blocks, by the largest component.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace voxmelt::render {
 
-// `occupied`: 1 or 0 for each block, x fastest. No distance is more than `most`, which is below 32.
+// Returns the distance of each block. `occupied` is 1 or 0 for each block, x fastest. No distance is more
+// than `most`, which is below 32.
 std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied,
                                           const state::Grid& blocks, int most);
 

@@ -1,4 +1,4 @@
-// What a packet's rays see through clear matter (rule/clear.h, clear_painter.h).
+// The rays of a packet see through clear matter (rule/clear.h, clear_painter.h).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct ClearPacket : Packet<Arch> {
   using Row = typename Rays<Arch>::Row;
   static constexpr std::int32_t kBias = Field::kBias;
 
-  // The ground on the rays: places in parts of steps, and the bias of rule/nearer.h.
+  // Holds the ground on the rays. Places are in parts of steps, and `first` is the bias of rule/nearer.h.
   struct Ground {
     V found, part, first;
   };
@@ -34,7 +34,7 @@ struct ClearPacket : Packet<Arch> {
     const PictureData& data;
     const Row& row;
     Triple to_eye;
-    V step;  // its length
+    V step;  // length of a step
     V surfaces, way;
     Color mirrored, scattered;
 
@@ -51,7 +51,7 @@ struct ClearPacket : Packet<Arch> {
       const Color left = passed();
       return (left.c[0] | left.c[1] | left.c[2]) == 0;
     }
-    // a / 2^kBits of a step.
+    // Returns a / 2^kBits of a step.
     template <int kBits>
     [[gnu::always_inline]] V part(V a) const {
       return (step * a) >> kBits;
@@ -59,14 +59,15 @@ struct ClearPacket : Packet<Arch> {
     [[gnu::always_inline]] void dim(V rays, V lost) {
       surfaces = rays ? (surfaces * (picture::kLight - lost)) >> 12 : surfaces;
     }
-    // Of rays whose numbers have not changed, nothing.
+    // Adds the light that the last change of `passed` scatters. Rays whose numbers have not changed add
+    // nothing.
     [[gnu::always_inline]] void scatter(const Color& before, const Color& color) {
       const Color after = passed();
       for (std::size_t c = 0; c < 3; ++c)
         scattered.c[c] = scattered.c[c] + (before.c[c] - after.c[c]) * color.c[c];
     }
 
-    // Some rays enter or leave matter at a lattice position.
+    // Takes some rays into matter or out of it, at a lattice position.
     [[gnu::always_inline]] void surface(V rays, Triple at, V enters) {
       at = P::select(rays, at, Triple{L::set(kBias), L::set(kBias), L::set(kBias)});
       const Triple out = P::select(rays, Field::normal(data, at), to_eye);
@@ -89,7 +90,7 @@ struct ClearPacket : Packet<Arch> {
       scatter(before, shine.scattered);
     }
 
-    // Some rays walk through matter, with what is at a lattice position.
+    // Takes some rays through matter, with the values at a lattice position.
     [[gnu::always_inline]] void walk(V rays, Triple at, V by) {
       at = P::select(rays, at, Triple{L::set(kBias), L::set(kBias), L::set(kBias)});
       const V matter = Field::matter(data.field, at);
@@ -102,16 +103,16 @@ struct ClearPacket : Packet<Arch> {
     }
   };
 
-  // Where the rays are on their walk: some look for matter, others are within it.
+  // Holds the state of the rays on their walk. Some look for matter, and others are within it.
   struct Walk {
-    V arrived{};  // at the ground
+    V arrived{};  // rays that are at the ground
     V searching = L::set(-1), within{};
-    V k{}, level{}, way{};  // the last sample, its level, and the way since the walk was told
+    V k{}, level{}, way{};  // last sample, its level, and the way not yet summed up
     Triple at{};            // lattice position of the last sample
     V last;                 // sample before the ground
   };
 
-  // Tells which rays get to the ground.
+  // Follows the rays, and tells which of them get to the ground.
   [[gnu::always_inline]] static inline V follow(Rest& rest, const Ground& ground) {
     Walk walk;
     walk.last = ground.found ? ground.part >> picture::kPartBits : L::set(INT32_MAX - 1);
@@ -122,7 +123,7 @@ struct ClearPacket : Packet<Arch> {
     }
   }
 
-  // The searching rays come to the next matter, to the ground or to nothing.
+  // Takes the searching rays to the next matter, to the ground or to nothing.
   [[gnu::always_inline]] static inline void enter(Rest& rest, const Ground& ground, Walk& walk) {
     const PictureData& data = rest.data;
     const Row& row = rest.row;
@@ -152,7 +153,7 @@ struct ClearPacket : Packet<Arch> {
     walk.within = walk.within | enters;
   }
 
-  // A stretch of the rays within matter, up to where they leave it or come to the ground.
+  // Takes the rays within matter along a stretch. It ends where they leave matter or come to the ground.
   [[gnu::always_inline]] static inline void go_on(Rest& rest, const Ground& ground, Walk& walk) {
     const PictureData& data = rest.data;
     const Row& row = rest.row;

@@ -1,4 +1,4 @@
-// What a ray sees through clear matter, by render/rule alone (docs/picture/translucent.md).
+// The painter follows a ray through clear matter, by render/rule alone (docs/picture/translucent.md).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace voxmelt::render {
 
-// Scene: a PaintedScene. Follows one ray, and sums up the light that comes along it.
+// Follows one ray, and sums up the light that comes along it. Scene is a PaintedScene.
 template <class Scene, class Watch = picture::Silent>
 class ClearPainter {
  public:
@@ -36,7 +36,7 @@ class ClearPainter {
     watch_(Stage::clear, "length", step_);
   }
 
-  // From the first crossing on. Tells whether the ray gets to the ground.
+  // Follows the ray from its first crossing on. Tells whether it gets to the ground.
   bool follow(picture::Crossing entry) {
     while (!picture::ground_first(ground_, entry, halvings_)) {
       if (!entry.found) return false;
@@ -76,7 +76,7 @@ class ClearPainter {
 
   bool dark() const { return passed() == picture::Color{}; }
   picture::Color passed() const { return picture::passed(paint_.passing, paint_.losses, left_); }
-  // With what shines through.
+  // Returns the light along the ray, with that of the ground that shines through.
   picture::Color sum(const picture::Color& ground) const {
     const picture::Color share = passed();
     picture::Color color{};
@@ -93,12 +93,12 @@ class ClearPainter {
   }
   auto levels() const { return watched(scene_.levels, Stage::sample); }
 
-  // a / 2^bits of a step.
+  // Returns a / 2^bits of a step.
   std::int32_t part_of_step(std::int64_t a, int bits) const {
     return static_cast<std::int32_t>((step_ * a) >> bits);
   }
 
-  // Sample k is matter, and the next one air.
+  // Returns the exit after sample k, which is matter. The next sample is air.
   picture::Crossing exit_at(std::int64_t k) const {
     watch_(Stage::crossing, "samples", std::array{k + 1, k});
     const picture::Crossing exit = picture::crossing_between(levels(), ray_.at(k + 1), ray_.at(k), k, watch_);
@@ -108,7 +108,7 @@ class ClearPainter {
     return exit;
   }
 
-  // The ray enters or leaves matter.
+  // Takes the ray into matter or out of it.
   void surface(picture::Vector position, bool enters) {
     watch_(Stage::clear, "enters", enters ? 1 : 0);
     watch_(Stage::clear, "position", position);
@@ -130,7 +130,7 @@ class ClearPainter {
     scatter(before, shine.scattered);
   }
 
-  // A way in matter, with what is at a place of it.
+  // Takes the ray along a way in matter, with the values at a place of it.
   void walk(picture::Vector position, std::int32_t way) {
     watch_(Stage::clear, "d", way);
     watch_(Stage::clear, "position", position);
@@ -143,7 +143,7 @@ class ClearPainter {
     scatter(before, color);
   }
 
-  // What no longer passes is seen as `color`.
+  // Adds light of a colour, in the share that no longer passes.
   void scatter(const picture::Color& before, const picture::Color& color) {
     const picture::Color after = passed();
     for (std::size_t c = 0; c < 3; ++c) scattered_[c] += (before[c] - after[c]) * color[c];
@@ -174,7 +174,7 @@ class ClearPainter {
   const picture::Vector to_eye_;
   const std::int32_t step_;
   const std::int64_t stretch_;  // samples between two looks around
-  const int halvings_;          // of the step, see rule/camera.h
+  const int halvings_;          // halvings of the step, see rule/camera.h
   const std::int64_t last_;     // sample before the ground
   picture::Left left_;
   picture::Color mirrored_{}, scattered_{};

@@ -1,4 +1,4 @@
-// Places of the picture to pressed light, one packet after the other.
+// Places of the picture become pressed light, one packet after the other.
 #pragma once
 
 #include <algorithm>
@@ -25,20 +25,20 @@ struct DrawPacket : Packet<Arch> {
   using Clear = ClearPacket<Arch>;
   using Color = typename Shade::Color;
 
-  // What a packet meets, of which `matter` and `ground` tell: no lane has both.
+  // Holds what a packet meets. `matter` and `ground` are masks, and no lane is set in both.
   struct Met {
     V matter, ground;
-    V from_start;  // the eye is in it
-    V face;        // of the ground
+    V from_start;  // the eye is in matter or ground
+    V face;        // face of the ground
     Triple position;
   };
 
-  // A packet's rays, and the ground that they meet.
+  // Holds a packet's rays, and the ground that they meet.
   struct Approach {
     typename Rays<Arch>::Row row;
     Triple start;
     typename Ground::Hits ground;
-    V most;  // the last sample that counts: matter behind the ground does not
+    V most;  // last sample that counts, as matter behind the ground does not
     typename Field::Hits hits;
   };
   VOXMELT_WORDS void approach(const PictureData& data, V across, V down, Approach& the_approach) {
@@ -52,7 +52,8 @@ struct DrawPacket : Packet<Arch> {
   VOXMELT_WORDS V last_sample(const Approach& approach) {
     return approach.ground.found ? (approach.ground.inside >> picture::kPartBits) + 1 : L::set(INT32_MAX);
   }
-  // On hills it takes many looks: two packets at once. Out of line, because flat scenes are faster so.
+  // Marches two packets at once, because hills take many looks. It is out of line, because flat scenes are
+  // faster so.
   [[gnu::noinline]] static void march_hills(const PictureData& data, Approach* approach, std::size_t count) {
     for (std::size_t i = 0; i < count; i += 2) {
       Approach &one = approach[i], &other = approach[std::min(i + 1, count - 1)];
@@ -79,7 +80,7 @@ struct DrawPacket : Packet<Arch> {
     }
     if (L::any(hits.found)) {
       const auto surface = Field::crossing(data.field, row, hits);
-      // rule/nearer.h, in places from the sample before matter.
+      // Places count from the sample before matter, as in rule/nearer.h.
       const V samples = L::clamp((ground.inside >> picture::kPartBits) - (hits.sample - 1), -8, 8);
       const V place = samples * picture::kPlaces +
                       (ground.inside & (picture::kParts - 1)) * (picture::kPlaces / picture::kParts);
@@ -96,7 +97,8 @@ struct DrawPacket : Packet<Arch> {
     return result;
   }
 
-  // Positions of lanes that meet nothing are 0, and their normals any unit vectors.
+  // Holds the surfaces of a packet. For lanes that meet nothing, positions are 0 and normals any unit
+  // vectors.
   struct Surface {
     Met met{};
     V found{};
@@ -104,7 +106,7 @@ struct DrawPacket : Packet<Arch> {
     typename Ground::Painted paint{};
   };
 
-  // Tells whether there is any.
+  // Finds the surfaces, and tells whether there is any.
   [[gnu::always_inline]] static inline bool surface(const PictureData& data, const Approach& from,
                                                     Surface& the_surface) {
     const auto& row = from.row;
@@ -156,7 +158,7 @@ struct DrawPacket : Packet<Arch> {
     return Shade::select(the_surface.found, Shade::pressed(*data.tone, lit), color);
   }
 
-  // The light through clear matter: matter, ground and background may all be seen by a ray.
+  // Computes the light through clear matter. A ray may see matter, ground and background at once.
   [[gnu::noinline]] static void clear_light(const PictureData& data, V across, V down, Color& to) {
     const auto row = Rays<Arch>::through(data, across, down);
     const Triple start = Rays<Arch>::wrapped_start(row),
@@ -199,7 +201,7 @@ struct DrawPacket : Packet<Arch> {
     }
   }
 
-  // Places are rounded up to whole packets: see Places.
+  // Draws all places, rounded up to whole packets (see Places).
   static void draw(const PictureData& data, Places places, PressedLight to) {
     const auto store = [&](const Color& color, std::size_t i) {
       L::store_halves(color.c[0], to.red + i);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kTile = 16;  // pixels; work is handed out by tiles
 
-// Places and their light, for as many samples as a tile can have.
+// Holds places and their light, for as many samples as a tile can have.
 class Samples {
  public:
   explicit Samples(std::size_t most)
@@ -38,7 +38,7 @@ class Samples {
   void draw(const PictureData& data, const Packets& packets) {
     packets.draw(data, {across_.data(), down_.data(), count_}, {red_.data(), green_.data(), blue_.data()});
   }
-  // The mean of kCount samples, in bytes.
+  // Returns the mean of kCount samples, in bytes.
   template <std::size_t kCount>
   Rgb mean(const picture::Bytes& bytes, std::size_t first) const {
     const auto channel = [&](const std::vector<std::uint16_t>& all) {
@@ -83,7 +83,7 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
-// Which tiles may show matter or ground.
+// Knows which tiles may show matter or ground.
 class Areas {
  public:
   explicit Areas(const PictureData& data)
@@ -96,7 +96,7 @@ class Areas {
                  std::int64_t{data.ground.highest} << (picture::kPositionBits - picture::kHeightBits),
                  data.ground.cells.z * picture::kCell})) {}
 
-  // What is to be drawn in a tile. Tells whether there is anything.
+  // Narrows the data to the things to be drawn in a tile. Tells whether there is anything.
   bool in(int index, const Tile& tile, PictureData& data) const {
     data = data_;
     if (!known_) return true;
@@ -109,13 +109,13 @@ class Areas {
 
  private:
   const PictureData& data_;
-  const bool known_;  // Projection holds for rays of 2^20 samples at most: the error of a step adds up
+  const bool known_;  // Projection holds up to 2^20 samples a ray; errors of steps add up
   Projection projection_;
   TileBoxes matter_;
   VisibleArea ground_;
 };
 
-// Which pixels of a tile's row differ from a neighbour, byte by byte.
+// Tells which pixels of a tile's row differ from a neighbour, byte by byte.
 class Differing {
  public:
   Differing(const Image& image, const Tile& tile, int y, int most) : most_(most) {
@@ -138,7 +138,7 @@ class Differing {
   std::uint8_t far_[3 * kTile] = {};
 };
 
-// A picture that is drawn tile by tile, on some threads.
+// Draws a picture tile by tile, on some threads.
 class TiledPicture {
  public:
   TiledPicture(const PictureData& data, const Packets& packets, int threads, const Stop& stop)
@@ -151,7 +151,7 @@ class TiledPicture {
         tiles_(across_ * ((data.height + kTile - 1) / kTile)),
         image_(data.width, data.height, {background(0), background(1), background(2)}) {}
 
-  // One sample a pixel. Packets are small squares, whose rays run together.
+  // Draws one sample a pixel. Packets are small squares, whose rays run together.
   void draw_middles() {
     const int side = packets_.lanes >= 16 ? 4 : packets_.lanes >= 4 ? 2 : 1, wide = packets_.lanes / side;
     for_tiles(tiles_, threads_, stop_, [&](int index, Samples& samples) {
@@ -174,7 +174,7 @@ class TiledPicture {
     });
   }
 
-  // More samples for the pixels that differ from a neighbour.
+  // Draws more samples for the pixels that differ from a neighbour.
   template <std::size_t kCount>
   void refine(int difference, const std::array<picture::Sub, kCount>& pattern) {
     const Image before = image_;
@@ -241,8 +241,8 @@ const Packets& packets_of(cpu::InstructionSet wanted) {
 
 const Packets& best_packets() { return packets_of(cpu::widest()); }
 
-// Rays come to the grid within 2^20 samples, so that their ranges in floats reach no more than three samples
-// too far. Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
+// Tells whether rays come to the grid within 2^20 samples. Then their ranges in floats reach no more than
+// three samples too far. Places on them are parts of 2^30 at most. Sums in doubles stay below 2^52.
 bool fits_lanes(const PictureData& data) {
   const picture::View& view = data.view;
   const std::int64_t most_samples = std::int64_t{1} << 20;

@@ -1,4 +1,4 @@
-// The picture by packets of rays (docs/picture/definition.md).
+// The picture is drawn by packets of rays (docs/picture/definition.md).
 #pragma once
 
 #include <functional>
@@ -10,22 +10,23 @@
 
 namespace voxmelt::render {
 
-// The packets of an instruction set, and the best that this processor can run.
+// These return the packets of an instruction set, and the best that this processor can run.
 const Packets& packets_of(cpu::InstructionSet set);
 const Packets& best_packets();
 
-// One sample a pixel; eight, or thirty-two, where a pixel differs from a neighbour.
+// A picture has one sample a pixel, or eight or thirty-two if a pixel differs from a neighbour.
 enum class Setting { fast, normal, best };
 
-// The samples of rays are 2^-spacing cells apart.
+// Returns the spacing of samples. They are 2^-spacing cells apart on a ray.
 constexpr int spacing_of(Setting setting, const picture::View& view) {
   return (setting == Setting::best ? 3 : 2) + view.halvings;
 }
 
-// Do all rays' numbers fit the lanes? Otherwise plain_packets() draw the picture, whichever are asked for.
+// Tells whether all rays' numbers fit the lanes. Otherwise plain_packets() draw the picture, whichever are
+// asked for.
 bool fits_lanes(const PictureData& data);
 
-// `stop` is asked before each tile, on every thread. Throws Stopped once it said yes.
+// Is thrown once `stop` has returned true. It is asked before each tile, on every thread.
 struct Stopped {};
 using Stop = std::function<bool()>;
 Image draw_picture(const PictureData& data, Setting setting, const Packets& packets, int threads,

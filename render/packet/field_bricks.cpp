@@ -11,12 +11,12 @@ namespace voxmelt::render {
 namespace {
 
 constexpr std::size_t kPlaces = kBrickVolume;
-constexpr std::uint8_t kWhole = 2;  // of what is stale: also where it is what it was
+constexpr std::uint8_t kWhole = 2;  // marks a brick that is filled even if unchanged
 constexpr std::int32_t kAirBlock = INT32_MIN;
 constexpr std::size_t kBeyond = 16;  // levels are read in pairs, and in rows of 16
 static_assert(kPlacesOfBrick == kBrickPlaces);
 
-// A brick of the field.
+// Describes a brick of the field.
 BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   const state::Grid first{brick.x * kBrickSide, brick.y * kBrickSide, brick.z * kBrickSide};
   BrickSource source;
@@ -32,18 +32,18 @@ BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   return source;
 }
 
-// The planes of a brick of the field that the next brick of the lattice holds, too.
+// The next brick of the lattice holds these planes of a brick of the field, too.
 constexpr std::uint8_t kLastPlanes = 0xE0;
 
-// Calls visit(b) for the bricks from `a` to the next ones along those axes on which `more` is 1.
+// Calls visit(b) for the bricks from `a` to the next ones, along those axes on which `more` is 1.
 template <class Visit>
 void for_near(const state::Grid& bricks, const state::Grid& a, const state::Grid& more, const Visit& visit) {
   for (int z = a.z; z <= std::min(a.z + more.z, bricks.z - 1); ++z)
     for (int y = a.y; y <= std::min(a.y + more.y, bricks.y - 1); ++y)
       for (int x = a.x; x <= std::min(a.x + more.x, bricks.x - 1); ++x) visit(state::Grid{x, y, z});
 }
-// Calls visit(b) for the bricks that hold a part of brick `a`, or of which it holds one: those from `low` to
-// `high` of it.
+// Calls visit(b) for the bricks at the offsets `low` to `high` from brick `a`. Each of them has places in
+// common with it.
 template <class Visit>
 void for_near(const state::Grid& bricks, const state::Grid& a, int low, int high, const Visit& visit) {
   for (int z = std::max(a.z + low, 0); z <= std::min(a.z + high, bricks.z - 1); ++z)
@@ -57,7 +57,7 @@ state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
   return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
 }
 
-// The glow's heat by temperature, in 256 steps.
+// Returns the glow's heat by temperature, in 256 steps.
 std::array<std::uint8_t, 257> heats_of(const picture::Look& look) {
   std::array<std::uint8_t, 257> values;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -110,7 +110,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   find_shell();
 }
 
-// With the pre-filter, a cell of the field changes the levels of those around it.
+// Finds what is stale. With the pre-filter, a cell of the field changes the levels of the cells around it.
 void FieldBricks::find_stale(const DensityField& field, const std::vector<std::uint32_t>& changed,
                              Stale& stale) const {
   const state::Grid& grid = field.bricks();
@@ -134,7 +134,7 @@ void FieldBricks::find_stale(const DensityField& field, const std::vector<std::u
   }
 }
 
-// What is nothing but air needs no slot. A new one is filled whole.
+// Gives slots to touched bricks. A brick of nothing but air needs no slot. A new one is filled whole.
 std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stale& stale, bool& moved) {
   const state::Grid& grid = field.bricks();
   std::vector<std::size_t> bricks;
@@ -198,7 +198,7 @@ void FieldBricks::give_back(std::int32_t& slot) {
   slot = 0;
 }
 
-// Is there any intensity that the levels of the brick depend on?
+// Tells whether there is any intensity that the levels of the brick depend on.
 bool FieldBricks::anything_near(const DensityField& field, const state::Grid& brick) const {
   const auto from = [](int b) { return std::max(b * kBrickSide - kLatticeBorder - 2, 0); };
   const auto end = [](int b, int side) { return std::min(b * kBrickSide + kBrickSide + 1, side); };
@@ -223,7 +223,7 @@ bool FieldBricks::anything_near(const DensityField& field, const state::Grid& br
   return false;
 }
 
-// Tells whether any of its blocks was occupied.
+// Empties a brick. Tells whether any of its blocks was occupied.
 bool FieldBricks::clear(std::size_t brick) {
   bool moved = false;
   for (int b = 0; b < 8; ++b) {
@@ -235,8 +235,8 @@ bool FieldBricks::clear(std::size_t brick) {
   return moved;
 }
 
-// The cells of a brick of the field, in all the bricks of the lattice that hold some of them. Tells whether
-// any may have changed. `whole`: some of those bricks are new.
+// Fills the cells of a brick of the field into all the bricks of the lattice that hold some of them. Tells
+// whether any may have changed. `whole` says that some of those bricks are new.
 bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, std::size_t brick, bool whole,
                        const BrickLoops& loops) {
   const state::Grid at = place_in(field.bricks(), brick);
@@ -265,7 +265,7 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
   return true;
 }
 
-// Tells whether other blocks are occupied now.
+// Finds the ranges of levels. Tells whether other blocks are occupied now.
 bool FieldBricks::find_ranges(std::size_t brick, const BrickLoops& loops) {
   BlockRanges ranges;
   loops.ranges(levels_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces, ranges);
@@ -311,20 +311,21 @@ void FieldBricks::find_box() {
         }
       }
     }
-  // Outside of the box of samples there is air. The lattice reaches a cell further, and rays' ranges less
-  // than that.
+  // Outside of the box of samples there is air. The lattice reaches a cell further, and rays' ranges reach
+  // less than that.
   const picture::Vector least = picture::field_low(), most = picture::field_high(cells_);
   box_ = {low_of_block(low[0], low[1], low[2]), low_of_block(high[0], high[1], high[2])};
   box_.low = {std::max(box_.low.x, least.x), std::max(box_.low.y, least.y), std::max(box_.low.z, least.z)};
   box_.high = {std::min(box_.high.x, most.x), std::min(box_.high.y, most.y), std::min(box_.high.z, most.z)};
 }
 
-// A brick is surrounded if the six beside it are full of occupied blocks.
+// Finds the bricks that are not surrounded. A brick is surrounded if the six beside it are full of occupied
+// blocks.
 void FieldBricks::find_shell() {
   shell_.clear();
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const std::size_t row = at(blocks_.x), slice = row * at(blocks_.y);
-  const auto found = [&](std::size_t brick) {  // its eight blocks as bits
+  const auto found = [&](std::size_t brick) {  // eight blocks as bits
     const state::Grid b = place_in(bricks_, brick);
     const std::uint8_t* first = occupied_.data() + blocks_.index(2 * b.x, 2 * b.y, 2 * b.z);
     unsigned bits = 0;

@@ -1,9 +1,9 @@
-// The field as the ray caster reads it: bricks of levels and of matter, and what of it is empty
-// (docs/picture/definition.md, section 12).
+// The ray caster reads the field in this form. It has bricks of levels and of matter, and tells which parts
+// are empty (docs/picture/definition.md, section 12).
 //
-// The lattice holds the cells -2 .. n + 1 of each axis: lattice place = cell + 2. Brick b covers samples
-// whose lower cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each axis, so
-// samples and normals read one brick alone. Bricks in which there is nothing but air share one.
+// The lattice holds the cells -2 .. n + 1 of each axis, so a lattice place is cell + 2. Brick b covers
+// samples whose lower cell lies in the places 8 b .. 8 b + 7. It holds the 11 places from 8 b - 1 along each
+// axis, so samples and normals read one brick alone. Bricks with nothing but air share one.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@
 
 namespace voxmelt::render {
 
-inline constexpr int kBrickPlaces = kBrickSide + 3;  // along an axis of a brick
+inline constexpr int kBrickPlaces = kBrickSide + 3;  // places along an axis of a brick
 inline constexpr int kBrickVolume = kBrickPlaces * kBrickPlaces * kBrickPlaces;
 
 class FieldBricks {
  public:
-  // Takes over a field. `changed`: bricks of the field (DensityField::bricks) that were filtered again since
-  // the last call, or null for all. Another grid or look asks for all.
+  // Takes over a field. `changed` lists the bricks of the field (DensityField::bricks) that were filtered
+  // again since the last call, or is null for all. Another grid or look asks for all.
   void update(const DensityField& field, const picture::Look& look, const std::vector<std::uint32_t>* changed,
               cpu::Workers& workers, const BrickLoops& loops = brick_loops());
 
@@ -33,39 +33,40 @@ class FieldBricks {
   const state::Grid& bricks() const { return bricks_; }
   const state::Grid& blocks() const { return blocks_; }
 
-  // Of each brick: which one holds its places. 0 is the brick of air.
+  // Returns for each brick the slot that holds its places. Slot 0 is the brick of air.
   const std::int32_t* slots() const { return slots_.data(); }
-  // [slot][z][y][x]; matter as liquid + 256 heat + 65536 obstacle.
+  // Both are [slot][z][y][x]. Matter is liquid + 256 heat + 65536 obstacle.
   const std::int16_t* levels() const { return levels_.data(); }
   const std::uint32_t* matter() const { return matter_.data(); }
-  // Of each block of 4 x 4 x 4 lower cells, in one number. If one of its places is matter: a bound of the
-  // slope (see slope_bound) in the low byte, and above it the slot of its brick. Otherwise it is negative,
-  // and the low byte tells how many blocks away the nearest such block is, kFarthest at most.
+  // Returns one number for each block of 4 x 4 x 4 lower cells. If one of its places is matter, the low byte
+  // bounds the slope (see slope_bound), and the slot of its brick is above it. Otherwise it is negative, and
+  // the low byte tells how many blocks away the nearest such block is, kFarthest at most.
   const std::int32_t* records() const { return records_.data(); }
   static constexpr int kFarthest = 16;
-  // The level changes by no more than kSlopeUnit times this from a position to another one cell away (the
-  // largest component of the way), within a block, but for the roundings of samples. Neighbours differ by
-  // 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
+  // Returns a bound of the slope. Within a block, the level changes by no more than kSlopeUnit times this
+  // over a way with a largest component of one cell. Roundings of samples are not counted. Neighbours differ
+  // by 65280 at most, at a side of the grid. So a byte suffices, even in a corner of it.
   static int slope_bound(int along_x, int along_y, int along_z) {
     return (along_x + along_y + along_z + kSlopeUnit - 1) / kSlopeUnit;
   }
-  // Every sample outside of this box is air: low <= position < high.
+  // Bounds the box low <= position < high. Every sample outside of it is air.
   struct Box {
     picture::Vector low, high;
   };
   const Box& occupied() const { return box_; }
-  // Boxes that hold all of what is occupied, but for what is surrounded by it on all sides.
+  // Returns boxes that hold all occupied blocks, except those that are surrounded by such blocks on all
+  // sides.
   const std::vector<BlockBox>& shell() const { return shell_; }
   std::size_t bytes() const;
 
  private:
-  // What an update must do.
+  // Tells what an update must do.
   struct Stale {
     std::vector<std::uint8_t> source;   // bricks of the field that have changed, or are wanted whole
-    std::vector<std::uint8_t> touched;  // bricks of places that may change; after fill_all, those that did
+    std::vector<std::uint8_t> touched;  // bricks of places that may change, and after fill_all those that did
   };
   void find_stale(const DensityField& field, const std::vector<std::uint32_t>& changed, Stale& stale) const;
-  // Returns the touched bricks that have a slot. `moved` becomes true where a block has lost its matter.
+  // Returns the touched bricks that have a slot. `moved` becomes true if a block has lost its matter.
   std::vector<std::size_t> give_slots(const DensityField& field, Stale& stale, bool& moved);
   void fill_all(const DensityField& field, const picture::Look& look, Stale& stale, cpu::Workers& workers,
                 const BrickLoops& loops);
@@ -90,8 +91,8 @@ class FieldBricks {
   std::vector<std::int16_t> levels_;
   std::vector<std::uint32_t> matter_;
   std::vector<std::int32_t> records_;
-  std::vector<std::uint8_t> occupied_;  // of blocks
-  std::vector<std::uint8_t> mixed_;     // of bricks of the field: some word of matter is not 0
+  std::vector<std::uint8_t> occupied_;  // by blocks
+  std::vector<std::uint8_t> mixed_;     // by bricks of the field, 1 if some word of matter is not 0
   Box box_;
   std::vector<BlockBox> shell_;
 };

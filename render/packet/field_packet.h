@@ -1,6 +1,7 @@
-// The field as a packet sees it: samples, the march to the surface, the crossing and the normal.
+// A packet sees the field by samples, the march to the surface, the crossing and the normal.
 //
-// Positions are in the lattice: place_of(position) plus the border, so that cell and weight are plain bits.
+// Positions are in the lattice. They are place_of(position) plus the border, so that cell and weight are
+// plain bits.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +23,11 @@ struct FieldPacket : Packet<Arch> {
 
   static constexpr std::int32_t kBias =
       static_cast<std::int32_t>(picture::kToPlace + 2 * picture::kCell);  // kLatticeBorder
-  static constexpr std::int32_t kSlice = 121, kRow = 11, kVolume = 1331;  // of a brick's places
-  static constexpr std::int32_t kOne = kSlice + kRow + 1;                 // a place along each axis
+  static constexpr std::int32_t kSlice = 121, kRow = 11, kVolume = 1331;  // strides of a brick's places
+  static constexpr std::int32_t kOne = kSlice + kRow + 1;                 // one place along each axis
 
-  // Index of the lowest of the eight places around a lattice position, less one place along each axis.
+  // Returns the index of the lowest of the eight places around a lattice position, less one place along each
+  // axis.
   VOXMELT_WORDS V corner(const FieldData& field, Triple q) {
     const V brick = ((q.z >> 23) * field.bricks_y + (q.y >> 23)) * field.bricks_x + (q.x >> 23);
     const V slot = L::template gather<4>(field.slots, brick);
@@ -34,7 +36,7 @@ struct FieldPacket : Packet<Arch> {
   VOXMELT_WORDS V in_brick(Triple q) {
     return ((q.z >> 20) & 7) * kSlice + ((q.y >> 20) & 7) * kRow + ((q.x >> 20) & 7);
   }
-  // (256 - w) and w as a pair of 16 bits.
+  // Returns (256 - w) and w as a pair of 16 bits.
   VOXMELT_WORDS V weights(V q) {
     const V w = (q >> 12) & 255;
     return (256 - w) | (w << 16);
@@ -55,22 +57,22 @@ struct FieldPacket : Packet<Arch> {
 
   struct Hits {
     V found;    // mask
-    V sample;   // the first in matter
-    V level;    // there
-    Triple at;  // its lattice position
+    V sample;   // first sample in matter
+    V level;    // level of that sample
+    Triple at;  // lattice position of that sample
   };
 
-  // A packet on its way.
+  // Holds the state of a packet on its way.
   struct Walk {
     V last, sample, active;
     Triple at;                 // lattice position of the sample
-    V back_x, back_y, back_z;  // -1: towards lower places
+    V back_x, back_y, back_z;  // -1 if towards lower places
     Hits hits;
   };
   VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V most) {
     return walk(data, row, L::set(-1), V{}, most);
   }
-  // Of some rays, from sample `from` on.
+  // Starts the walk of some rays, from sample `from` on.
   VOXMELT_WORDS Walk walk(const PictureData& data, const Row& row, V rays, V from, V most) {
     Walk result;
     auto range = Rays<Arch>::in_box(row, data.field.low, data.field.high);
@@ -149,18 +151,18 @@ struct FieldPacket : Packet<Arch> {
     }
   }
 
-  // The first sample in matter of every ray, up to `most`.
+  // Returns the first sample in matter of every ray, up to `most`.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V most) {
     return march(data, row, L::set(-1), V{}, most);
   }
-  // The same of some rays, from sample `from` on.
+  // Does the same for some rays, from sample `from` on.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, V rays, V from, V most) {
     Walk the_walk = walk(data, row, rays, from, most);
     finish(data, row, the_walk);
     return the_walk.hits;
   }
-  // Two packets at once: while one waits for memory, the other goes on. approaches[i].row and most are read,
-  // hits are written.
+  // Marches two packets at once. While one waits for memory, the other goes on. It reads approaches[i].row
+  // and most, and writes hits.
   template <class Approach>
   VOXMELT_WORDS void march(const PictureData& data, Approach* first, Approach* end) {
     const auto next = [&](Walk& the_walk) -> Approach* {
@@ -201,7 +203,7 @@ struct FieldPacket : Packet<Arch> {
   }
 
   struct Surface {
-    V part;     // of the step to the hit's sample, in picture::kPlaces
+    V part;     // part of the step to the hit's sample, in picture::kPlaces
     Triple at;  // lattice position of the crossing
   };
 
@@ -212,7 +214,8 @@ struct FieldPacket : Packet<Arch> {
     return {from_start ? L::set(picture::kPlaces) : surface.part, P::select(from_start, hits.at, surface.at)};
   }
 
-  // Between two lattice positions, `outside` in air and `inside` in matter of the level `high`.
+  // Finds the crossing between two lattice positions. `outside` is in air, and `inside` in matter of the
+  // level `high`.
   VOXMELT_WORDS Surface crossing_between(const FieldData& field, Triple outside, Triple inside, V high) {
     V low = sample(field, outside), part{};
     for (int i = 0; i < picture::kBisections; ++i) {
@@ -229,7 +232,8 @@ struct FieldPacket : Packet<Arch> {
     return {part * picture::kParts + last, outside + (((inside - outside) * last) >> 8)};
   }
 
-  // Weights of the quadratic B-spline (rule/normal.h): the first two as a pair of 16 bits, and the third.
+  // Holds weights of the quadratic B-spline (rule/normal.h). The first two are a pair of 16 bits, and the
+  // third stands alone.
   struct Spline {
     V further;  // cells from the corner's to the middle one
     V value01, value2, slope01, slope2;
@@ -273,7 +277,7 @@ struct FieldPacket : Packet<Arch> {
     return P::unit(Triple{} - slope, data.inverse_root);
   }
 
-  // Bytes of two words of four, blended lane by lane. Words are split into even and odd bytes.
+  // Blends the bytes of two words of four, lane by lane. Words are split into even and odd bytes.
   VOXMELT_WORDS V blend_bytes(V a, V b, V w) {
     constexpr std::uint32_t kEven = 0x00FF00FF;
     using U = typename L::U;
@@ -282,7 +286,7 @@ struct FieldPacket : Packet<Arch> {
     const U odd = (((first >> 8) & kEven) * keep + ((second >> 8) & kEven) * by + 0x00800080) & (kEven << 8);
     return L::as_signed(even | odd);
   }
-  // Liquid, heat and obstacle as bytes of a lane, read among the centres of cells (rule/matter.h).
+  // Returns liquid, heat and obstacle as bytes of a lane, read among the centres of cells (rule/matter.h).
   VOXMELT_WORDS V matter(const FieldData& field, Triple q) {
     const auto among_centers = [](V place, std::int64_t cells) {
       constexpr auto kHalf = static_cast<std::int32_t>(picture::kCell / 2);

@@ -1,4 +1,4 @@
-// A ground map in the order in which packets of rays read it (docs/picture/ground.md).
+// A ground map is kept in the order in which packets of rays read it (docs/picture/ground.md).
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ class GroundColumns {
  public:
   // Takes over all of a map.
   void update(const GroundMap& map);
-  // Takes over what GroundMap::lower has changed.
+  // Takes over the changes of GroundMap::lower.
   void lower(const GroundMap& map);
-  // Points into this object and the map that was taken over.
+  // Returns pointers into this object and the map that was taken over.
   GroundData data(const GroundMap& map) const;
 
  private:

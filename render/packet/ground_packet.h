@@ -1,7 +1,7 @@
-// The ground as a packet sees it: the first crossing, its face, the normal and the paint (rule/ground.h,
+// A packet sees the ground by the first crossing, its face, the normal and the paint (rule/ground.h,
 // rule/rock.h).
 //
-// Places on rays are in parts of steps. PictureData::fits makes sure that they and the ranges below are
+// Places on rays are in parts of steps. The function fits_lanes makes sure that they and the ranges below are
 // exact.
 #pragma once
 
@@ -28,14 +28,14 @@ struct GroundPacket : Packet<Arch> {
 
   struct Hits {
     V found;   // mask
-    V inside;  // the part in the ground
-    V before;  // a part outside of it, before: bounds of the crossing
+    V inside;  // part in the ground
+    V before;  // part outside of it, before; the crossing lies between the two
   };
 
   struct Place {
     V cell, weight;
   };
-  // Of a position in 2^-kShift of the table's spacing, by picture::place_of.
+  // Returns the place of a position in a table with 2^fineness entries a cell, by picture::place_of.
   VOXMELT_WORDS Place place(V position, int fineness) {
     const V shifted = position + static_cast<std::int32_t>(picture::kToPlace >> fineness);
     return {shifted >> (20 - fineness), (shifted >> (12 - fineness)) & 255};
@@ -57,7 +57,7 @@ struct GroundPacket : Packet<Arch> {
     return (p.y >> (picture::kPositionBits - picture::kHeightBits)) - height(ground, ground.drawn, p.x, p.z);
   }
 
-  // A packet on its way.
+  // Holds the state of a packet on its way.
   struct Walk {
     V first, last, part, active;
     F nearer, per_sample;  // 2^-32 cells that the ground may come nearer at each sample
@@ -75,7 +75,7 @@ struct GroundPacket : Packet<Arch> {
     result.hits = {V{}, V{}, V{}};
     if (!L::any(result.active)) return result;
     result.part = result.active ? range.first : V{};
-    // See GroundMap::find; all floats are rounded so that less is left out.
+    // The numbers are those of GroundMap::find. All floats are rounded so that less is left out.
     const F aside = L::to_float(P::magnitude(row.step.x)) * static_cast<float>(ground.slopes.x) +
                     L::to_float(P::magnitude(row.step.z)) * static_cast<float>(ground.slopes.z);
     const F fall = L::to_float(row.step.y) * static_cast<float>(-picture::kHeight);
@@ -113,7 +113,7 @@ struct GroundPacket : Packet<Arch> {
     return hits;
   }
 
-  // Between neighbouring parts.
+  // Returns the lanes whose bounds are not yet neighbouring parts.
   VOXMELT_WORDS V open(const Hits& hits) { return hits.found & (hits.inside - hits.before > 1); }
   VOXMELT_WORDS void halve(const GroundData& ground, const Row& row, Triple start, V open, Hits& hits) {
     const V middle = (hits.inside + hits.before) >> 1;
@@ -126,13 +126,13 @@ struct GroundPacket : Packet<Arch> {
   VOXMELT_WORDS void finish(const PictureData& data, const Row& row, Triple start, Walk& walk) {
     while (L::any(walk.active)) go(data, walk, over(data, row, start, walk));
   }
-  // The place at or before which the ground is entered, to a sample.
+  // Returns the place at or before which the ground is entered, to a sample.
   VOXMELT_WORDS Hits march(const PictureData& data, const Row& row, Triple start) {
     Walk the_walk = walk(data, row);
     finish(data, row, start, the_walk);
     return hits_of(the_walk);
   }
-  // The same for two packets at once: while one waits for memory, the other goes on. Bisected, too.
+  // Does the same for two packets at once, and bisects, too. While one waits for memory, the other goes on.
   template <class Approach>
   VOXMELT_WORDS void march(const PictureData& data, Approach& one, Approach& other) {
     Walk a = walk(data, one.row), b = walk(data, other.row);
@@ -157,7 +157,7 @@ struct GroundPacket : Packet<Arch> {
     for (V still = open(hits); L::any(still); still = open(hits)) halve(ground, row, start, still, hits);
   }
 
-  // The numbers of picture::Face.
+  // Returns the numbers of picture::Face.
   VOXMELT_WORDS V face_of(const GroundData& ground, V found, V inside, Triple outside) {
     const auto face = [](picture::Face the_face) { return L::set(static_cast<std::int32_t>(the_face)); };
     const auto end = [](std::int64_t cells) { return static_cast<std::int32_t>(cells * picture::kCell - 1); };
@@ -175,7 +175,7 @@ struct GroundPacket : Packet<Arch> {
     V color[3];
   };
 
-  // At places of the ground, whose lanes `found` are; the others are anything.
+  // Paints places of the ground. These are the lanes of `found`, and the others may hold anything.
   VOXMELT_WORDS Painted painted(const PictureData& data, V found, V face, Triple position, Triple to_eye) {
     const GroundData& ground = data.ground;
     const auto is = [&](picture::Face the_face) { return face == static_cast<std::int32_t>(the_face); };

@@ -1,4 +1,4 @@
-// The light that arrives at the surfaces of a packet (rule/light_grid.h).
+// Light arrives at the surfaces of a packet (rule/light_grid.h).
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ struct LightPacket : Packet<Arch> {
   using typename P::Triple;
   using typename P::V;
 
-  // Four bytes a lane, in the order of LightBytes.
+  // Holds four bytes a lane, in the order of LightBytes.
   struct Light {
     V lamp_open, open, glow, more_glow;
   };
 
-  // `position` in cells.
+  // Returns the light at `position`, in 2^-20 cells of the grid and not of the lattice.
   VOXMELT_WORDS Light at(const LightData& light, bool glow, Triple position) {
     struct Axis {
       V below, above, weight;
@@ -56,7 +56,7 @@ struct LightPacket : Packet<Arch> {
     return result;
   }
 
-  // One cell of light in front of a surface.
+  // Returns the place one cell of light in front of a surface.
   VOXMELT_WORDS Triple before(Triple position, Triple normal, int shift) {
     return position + (normal << (picture::kPositionBits - picture::kNormalBits + shift));
   }
@@ -65,7 +65,7 @@ struct LightPacket : Packet<Arch> {
 
   VOXMELT_WORDS V lamp(const Light& light) { return byte(light.lamp_open, 0); }
 
-  // Six sides seen along a unit vector.
+  // Returns six sides as seen along a unit vector.
   VOXMELT_WORDS V along(V plus_x, V minus_x, V plus_y, V minus_y, V plus_z, V minus_z, Triple d) {
     const auto part = [](V component, V plus, V minus) {
       return ((component * component) >> 14) * (component < 0 ? minus : plus);

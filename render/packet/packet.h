@@ -1,4 +1,4 @@
-// What the parts of a packet share: vectors of three components, and arithmetic of render/rule, lane by lane.
+// The parts of a packet share vectors of three components, and arithmetic of render/rule, lane by lane.
 #pragma once
 
 #include <cstdint>
@@ -44,16 +44,16 @@ struct Packet {
   VOXMELT_WORDS V magnitude(V a) { return L::max(a, -a); }
   VOXMELT_WORDS V largest(Triple a) { return L::max(L::max(magnitude(a.x), magnitude(a.y)), magnitude(a.z)); }
 
-  // See rule/normal.h: components within 2^15, brought to the length 2^14. `roots`:
+  // Returns a vector of components within 2^15, brought to the length 2^14 (rule/normal.h). `roots` is
   // PictureData::inverse_root.
   VOXMELT_WORDS Triple unit(Triple a, const std::uint32_t* roots) {
     const V most = largest(a), nothing = most == 0;
     a = a * L::power_of_two(nothing ? V{} : 15 - L::bits_of(most));
-    const V square = dot(a, a);  // as unsigned
+    const V square = dot(a, a);  // read as unsigned
     const V small = (L::as_signed(L::as_unsigned(square) >> 30)) == 0;
     const V scaled = small ? square << 2 : square;
     V i = L::as_signed(L::as_unsigned(scaled) >> 23) - 128;
-    i = L::clamp(i, 0, 383);  // lanes of length 0
+    i = L::clamp(i, 0, 383);  // for lanes of length 0
     const V entry = L::template gather<4>(roots, i);
     const V root = entry & 0xFFFF, less = L::as_signed(L::as_unsigned(entry) >> 16);
     V scale = root - ((less * (scaled & 0x7FFFFF) + (1 << 22)) >> 23);
@@ -61,16 +61,16 @@ struct Packet {
     const auto component = [&](V c) { return (c * scale + (1 << 15)) >> 16; };
     return {component(a.x), component(a.y), component(a.z)};
   }
-  // Components of up to 15 + n bits.
+  // Returns a unit vector. Components of more than 15 bits are shifted down first.
   VOXMELT_WORDS Triple unit_of(Triple a, const std::uint32_t* roots) {
     const V bits = L::bits_of(largest(a)), more = bits > 15 ? bits - 14 : V{};
     Triple b = a;
-    // At most a few different counts occur; shifts by one each are the same on every processor.
+    // At most a few different counts occur. Shifts by one each are the same on every processor.
     for (V left = more; L::any(left > 0); left = left - 1) b = select(left > 0, b >> 1, b);
     return unit(b, roots);
   }
 
-  // a + (b - a) share / 2^12, to nearest (rule/look.h).
+  // Returns a + (b - a) share / 2^12, to nearest (rule/look.h).
   VOXMELT_WORDS V mixed(V a, V b, V share) { return a + (((b - a) * share + 2048) >> 12); }
   VOXMELT_WORDS V mixed(std::int32_t a, std::int32_t b, V share) {
     return L::set(a) + (((b - a) * share + 2048) >> 12);

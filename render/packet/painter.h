@@ -1,4 +1,5 @@
-// What a ray sees, by render/rule alone: the plain picture of any scene whose parts can be asked for.
+// The painter finds what a ray sees, by render/rule alone. It gives the plain picture of any scene whose
+// parts can be asked for.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 namespace voxmelt::render {
 
-// Levels, Matter and Lights give the value of any cell of theirs.
+// Holds a scene. Levels, Matter and Lights give the value of any of their cells.
 template <class Levels, class Matter, class Lights>
 struct PaintedScene {
   const Levels& levels;
@@ -38,14 +39,14 @@ struct Seen {
   bool ground = false;
 };
 
-// The watcher is told every number of a ray.
+// Paints rays one by one. The watcher is told every number of a ray.
 template <class Scene, class Watch = picture::Silent>
 class Painter {
  public:
   Painter(const Scene& scene, const picture::View& view, int spacing, Watch watch = {})
       : scene_(scene), view_(view), spacing_(spacing), watch_(watch) {}
 
-  // Through a place of the picture: pressed light.
+  // Returns the pressed light through a place of the picture.
   picture::Color light(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_, watch_);
     if (scene_.paint.clear) return clear_light(met);
@@ -54,7 +55,7 @@ class Painter {
     watch_(Stage::pixel, "background", scene_.background);
     return scene_.background;
   }
-  // The surface there.
+  // Returns the surface at a place of the picture.
   Seen seen(std::int64_t across, std::int64_t down) const {
     const Met met(scene_, view_, across, down, spacing_, watch_);
     if (met.on_ground)
@@ -63,7 +64,7 @@ class Painter {
     if (met.matter.found) return {true, met.matter.position, matter_normal(met)};
     return {};
   }
-  // What matter is made of at a position.
+  // Returns the bytes of matter at a position.
   picture::Matter matter(picture::Vector position) const {
     return picture::matter_at(watched(scene_.matter, Stage::matter), scene_.cells, position, watch_);
   }

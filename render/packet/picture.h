@@ -1,5 +1,4 @@
-// A scene as it is drawn: all that pictures of it read, kept up to date, and the pictures
-// (docs/picture/definition.md).
+// A drawn scene keeps all that its pictures read up to date, and draws them (docs/picture/definition.md).
 #pragma once
 
 #include <cstdint>
@@ -28,39 +27,41 @@ namespace voxmelt::render {
 
 class Picture {
  public:
-  // Takes over a state. What did not change since the last call is kept; the pictures are those of a fresh
-  // object, on any number of threads. A terrain of another size than the volume's is none.
+  // Takes over a state. Unchanged parts are kept since the last call. The pictures are those of a fresh
+  // object, on any number of threads. A terrain of another size than the volume's counts as none.
   void update(const state::Volume& volume, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, int threads);
-  // The same from a field that is kept elsewhere. `changed`: bricks of the field that were filtered again
-  // since the last call, or null for all. `set`: this processor must have it.
+  // Does the same from a field that is kept elsewhere. `changed` lists bricks of the field that were filtered
+  // again since the last call, or is null for all. This processor must have `set`.
   void update(const DensityField& field, const scene::Look& look, const scene::Light& light,
               const scene::Terrain& terrain, const std::vector<std::uint32_t>* changed, int threads,
               cpu::InstructionSet set = cpu::widest());
 
-  // What is asked before each tile of a picture; drawing throws Stopped once it said yes.
+  // Sets the question that is asked before each tile of a picture. Drawing throws Stopped once the answer is
+  // yes.
   void stop_when(Stop stop) { stop_ = std::move(stop); }
   Image draw(const scene::Camera& camera, Setting setting, int threads,
              const Packets& packets = best_packets()) const;
   SurfacePicture surface(const scene::Camera& camera, Setting setting, int threads,
                          const Packets& packets = best_packets()) const;
 
-  // Depths in cells from the eye, and what one pixel shows (draw_surface.h), of draw()'s picture.
+  // These return depths in cells from the eye, and what one pixel shows (draw_surface.h), of draw()'s
+  // picture.
   std::vector<float> depths(const scene::Camera& camera, Setting setting, int threads,
                             const Packets& packets = best_packets()) const;
   std::optional<Sight> see(const scene::Camera& camera, Setting setting, int x, int y) const;
 
-  // Whether the camera stands in matter or in the ground: then it sees nothing but what it stands in.
+  // Tells whether the camera stands in matter or in the ground. Then it sees nothing else.
   bool camera_inside(const scene::Camera& camera) const;
 
-  // What the pictures are drawn from. Points into this object.
+  // Returns the data that pictures are drawn from. It points into this object.
   PictureData data(const picture::Camera& camera, Setting setting) const;
 
  private:
   DensityField field_;
   scene::Look scene_look_;
   scene::Light scene_light_;
-  std::optional<scene::Terrain> terrain_;  // of the last update
+  std::optional<scene::Terrain> terrain_;  // terrain of the last update
   picture::Look look_;
   picture::Paint paint_;
   FieldBricks bricks_;

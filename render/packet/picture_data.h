@@ -1,4 +1,4 @@
-// All that packets of rays read, as plain data.
+// Packets of rays read all of this, as plain data.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace voxmelt::render {
 
-inline constexpr int kSlopeUnit = 768;  // of the slopes in FieldData::records, see field_bricks.h
+inline constexpr int kSlopeUnit = 768;  // unit of the slopes in FieldData::records, see field_bricks.h
 
-// Blocks of cells, from low to high (see field_bricks.h).
+// Bounds blocks of cells, from low to high (see field_bricks.h).
 struct BlockBox {
   std::int32_t low[3], high[3];
 };
 
 inline constexpr int kLatticeBorder = 2;  // places before cell 0
-inline constexpr int kBlockSide = 4;      // of the blocks by which rays skip
+inline constexpr int kBlockSide = 4;      // cells along a block, by which rays skip
 
-// Where the samples begin whose lower cell lies in a block.
+// Returns where those samples begin whose lower cell lies in a block.
 inline picture::Vector low_of_block(int x, int y, int z) {
   const auto axis = [](int b) {
     return (std::int64_t{b} * kBlockSide - kLatticeBorder) * picture::kCell - picture::kToPlace;
@@ -38,7 +38,7 @@ struct FieldData {
   const std::int32_t* records = nullptr;
   bool obstacles = false;
   picture::Vector low, high;        // outside of this box there is air
-  const BlockBox* shell = nullptr;  // all of what is occupied, but for what is surrounded by it
+  const BlockBox* shell = nullptr;  // boxes of FieldBricks::shell
   std::size_t shell_count = 0;
 };
 
@@ -50,34 +50,34 @@ struct LightData {
 
 struct PictureData {
   picture::View view;
-  std::int32_t width = 0, height = 0;  // in pixels
+  std::int32_t width = 0, height = 0;  // pixels
   int spacing = 2;
   FieldData field;
   LightData light;
   GroundData ground;
   const picture::Paint* paint = nullptr;
   picture::Color background{};
-  const std::uint32_t* inverse_root =
-      nullptr;  // see normal.h: the root, and 65536 times what the next one is less
+  const std::uint32_t* inverse_root = nullptr;  // table of inverse_roots() in tables.h
   const picture::Tone* tone = nullptr;
   const picture::Bytes* bytes = nullptr;
-  bool skip = true;  // leave out samples that cannot matter; the picture is the same
+  bool skip = true;  // leaves out samples that cannot matter; the picture is the same
 };
 
-// What packets are asked for: some places of the picture, in picture coordinates. There is room for
-// kMostLanes more places, which hold any place of the picture; and for as much more light.
+// Holds the places that packets are asked for, in picture coordinates. There is room for kMostLanes more
+// places, which hold any place of the picture. There is room for as much more light, too.
 inline constexpr int kMostLanes = 16;
 struct Places {
   const std::int32_t *across, *down;
   std::size_t count;
 };
 
-// Pressed light, red, green and blue, each 0 .. kLight.
+// Points to pressed light, red, green and blue, each 0 .. kLight.
 struct PressedLight {
   std::uint16_t *red, *green, *blue;
 };
 
-// Where rays meet something: masks, positions in 2^-20 cells, and unit normals in 2^-14.
+// Points to the surfaces that rays meet. They have masks, positions in 2^-20 cells, and unit normals in
+// 2^-14.
 struct FoundSurface {
   std::int32_t* found;
   std::int32_t *position[3], *normal[3];
@@ -89,7 +89,7 @@ struct Packets {
   int lanes;
 };
 
-// Compiled for an architecture (packets_instance.cpp).
+// Returns the packets, compiled for an architecture (packets_instance.cpp).
 template <class Arch>
 Packets packets_for();
 

@@ -1,4 +1,4 @@
-// Packets of one ray, by render/rule in 64 bits: for cameras whose numbers do not fit the lanes.
+// Packets of one ray follow render/rule in 64 bits. They serve cameras whose numbers do not fit the lanes.
 #pragma once
 
 #include "render/packet/picture_data.h"

@@ -1,4 +1,4 @@
-// The picture's rules in 64 bits, over the bricks that packets read.
+// The picture's rules run in 64 bits, over the bricks that packets read.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class PlainCells {
   explicit PlainCells(const FieldData& field) : field_(field) {}
 
  protected:
-  // Index of a cell's place, or -1 far outside of the grid.
+  // Returns the index of a cell's place, or -1 far outside of the grid.
   std::int64_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const picture::Vector place =
         picture::Vector{x, y, z} + picture::Vector{kLatticeBorder, kLatticeBorder, kLatticeBorder};
@@ -70,7 +70,7 @@ struct LightCells {
   }
 };
 
-// Calls visit(painter).
+// Calls visit(painter) with a painter of the data.
 template <class Visit>
 void with_painter(const PictureData& data, const Visit& visit) {
   static const GroundMap kNone;

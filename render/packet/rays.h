@@ -1,4 +1,4 @@
-// A packet's rays: places of the picture to starts, steps, and the samples in a box.
+// The rays of a packet turn places of the picture into starts, steps, and the samples in a box.
 //
 // Directions and starts are whole numbers below 2^53, so doubles hold them exactly.
 #pragma once
@@ -23,7 +23,7 @@ struct Rays : Packet<Arch> {
   using HalfV = typename L::HalfV;
   using HalfF = typename L::HalfF;
 
-  // Of all lanes.
+  // Holds a double for each lane, in two halves.
   struct Doubles {
     D low, high;
   };
@@ -32,7 +32,7 @@ struct Rays : Packet<Arch> {
   };
   struct Row {
     Triple step;                        // in 2^-20 cells
-    Starts start;                       // of sample 0
+    Starts start;                       // position of sample 0
     F inverse_x, inverse_y, inverse_z;  // 1 / |step|
   };
 
@@ -49,8 +49,8 @@ struct Rays : Packet<Arch> {
     return row;
   }
 
-  // Which samples may lie in a box, and a little around it: up to four samples, a cell at most. Floats err by
-  // less than 2^-21 of the way, which has 2^22 samples at most (fits_lanes).
+  // Returns which samples may lie in a box, and a little around it. The margin is up to four samples, and a
+  // cell at most. Floats err by less than 2^-21 of the way, which has 2^22 samples at most (fits_lanes).
   struct Samples {
     V first, last;
   };
@@ -65,8 +65,8 @@ struct Rays : Packet<Arch> {
     return {L::to_int(L::min(first, L::set_float(1.5e9f))), L::to_int(L::min(last, L::set_float(1e9f)))};
   }
 
-  // The parts of rays in the box low <= position < high, exactly (picture::ground_parts), where
-  // PictureData::fits. A quotient of whole numbers below 2^47 by one below 2^19 does not reach a whole number
+  // Returns the parts of rays in the box low <= position < high (picture::ground_parts). They are exact if
+  // fits_lanes holds. A quotient of whole numbers below 2^47 by one below 2^19 does not reach a whole number
   // by its rounding.
   VOXMELT_WORDS Samples parts_in(const Row& row, picture::Vector low, picture::Vector high) {
     const auto half = [&]<int kWhich>(D x, D y, D z) {
@@ -93,11 +93,11 @@ struct Rays : Packet<Arch> {
     return {L::joined(below.first, above.first), L::joined(below.last, above.last)};
   }
 
-  // The low 32 bits of the starts.
+  // Returns the low 32 bits of the starts.
   VOXMELT_WORDS Triple wrapped_start(const Row& row) {
     return {wrapped(row.start.x), wrapped(row.start.y), wrapped(row.start.z)};
   }
-  // picture::position_at near the grid. Elsewhere it wraps.
+  // Returns picture::position_at near the grid. Elsewhere it wraps.
   VOXMELT_WORDS Triple at_part(const Row& row, Triple start, V part) {
     const V whole = part >> picture::kPartBits, rest = part & (picture::kParts - 1);
     const auto axis = [&](V from, V step) {
@@ -107,7 +107,7 @@ struct Rays : Packet<Arch> {
     return {axis(start.x, row.step.x), axis(start.y, row.step.y), axis(start.z, row.step.z)};
   }
 
-  // The position of a sample near the grid, plus `bias`. Lanes without samples may be anywhere.
+  // Returns the position of a sample near the grid, plus `bias`. Lanes without samples may be anywhere.
   VOXMELT_WORDS Triple at(const Row& row, V sample, std::int32_t bias) {
     return {along(row.start.x, row.step.x, sample, bias), along(row.start.y, row.step.y, sample, bias),
             along(row.start.z, row.step.z, sample, bias)};
@@ -136,7 +136,7 @@ struct Rays : Packet<Arch> {
   VOXMELT_WORDS D larger(D a, D b) { return a < b ? b : a; }
   VOXMELT_WORDS D positive(D a) { return larger(a, -a); }
 
-  // floor(a), |a| < 2^52.
+  // Returns floor(a), where |a| < 2^52.
   VOXMELT_WORDS D floor_of(D a) {
     constexpr double kRound = 6755399441055744.0;  // 1.5 2^52
     const D near = (a + kRound) - kRound;
@@ -163,7 +163,7 @@ struct Rays : Packet<Arch> {
             y = direction(view, u, v, view.forward.y, view.wide.y, view.high.y),
             z = direction(view, u, v, view.forward.z, view.wide.z, view.high.z);
 
-    // 2^-shift, from the exponent of the largest component less 1.
+    // The scale is 2^-shift, from the exponent of the largest component less 1.
     using Q = typename L::Q;
     const D most = larger(larger(positive(x), positive(y)), positive(z)) - 1.0;
     Q exponent;
@@ -192,7 +192,7 @@ struct Rays : Packet<Arch> {
     const F begin = to_floats(start);
     const F before = static_cast<float>(from) - begin, behind = static_cast<float>(to) - begin;
     const V back = step < 0, still = step == 0;
-    // A ray that does not move along the axis is in or out: by more than the samples that in_box adds.
+    // A ray that does not move along the axis is in or out. The margin exceeds the samples that in_box adds.
     const F near = still ? (before > 4096.0f ? L::set_float(2e9f) : L::set_float(0))
                          : (back ? -behind : before) * inverse;
     const F far = still ? (behind < -4096.0f ? L::set_float(-1e9f) : L::set_float(1e9f))

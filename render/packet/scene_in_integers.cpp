@@ -8,7 +8,7 @@
 namespace voxmelt::render {
 namespace {
 
-// To nearest, halves upwards. A sum with 1/2 could round.
+// Rounds to nearest, with halves upwards. The sum of `exact` and 1/2 could round, so it is avoided.
 std::int64_t fixed(double value, int bits) {
   const double exact = std::ldexp(value, bits), below = std::floor(exact);
   return static_cast<std::int64_t>(below) + (exact - below >= 0.5 ? 1 : 0);
@@ -40,7 +40,7 @@ picture::Look look_in_integers(const scene::Look& look) {
 
 picture::Lamp lamp_in_integers(const scene::Light& light) {
   const auto& d = light.direction;
-  int bits = 0;  // any length counts: the largest component is brought to 1/2 .. 1
+  int bits = 0;  // exponent that brings the largest component to 1/2 .. 1
   std::frexp(std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}), &bits);
   return {{fixed(d[0], 24 - bits), fixed(d[1], 24 - bits), fixed(d[2], 24 - bits)},
           render::light(light.ambient)};

@@ -1,4 +1,4 @@
-// The colours of a packet's surfaces (rule/shade.h, rule/tone.h).
+// The surfaces of a packet get their colours (rule/shade.h, rule/tone.h).
 #pragma once
 
 #include <cstddef>
@@ -31,12 +31,13 @@ struct ShadePacket : Packet<Arch> {
   VOXMELT_WORDS V cosine(Triple a, Triple b) { return P::dot(a, b) >> 14; }
   VOXMELT_WORDS V whole(V byte) { return byte + (byte >> 7); }
 
-  // rule/look.h. t is exact: the quotient of two floats, below 2^24, rounded down.
+  // Returns picture::smooth_light (rule/look.h). t is exact, because it is the quotient of two floats below
+  // 2^24, rounded down.
   VOXMELT_WORDS V smooth_step(std::int32_t low, std::int32_t high, V at) {
     const V within = L::clamp(at - low, 0, high - low);
     const V t = L::to_int(L::to_float(within * 4096) / static_cast<float>(high - low));
     const V square = t * t;  // 2^24 at most
-    // (t^2 (12288 - 2 t)) >> 24, in two parts of t^2
+    // The result is (t^2 (12288 - 2 t)) >> 24, in two parts of t^2.
     const V by = 12288 - 2 * t;
     return ((square >> 12) * by + (((square & 4095) * by) >> 12)) >> 12;
   }
@@ -109,7 +110,8 @@ struct ShadePacket : Packet<Arch> {
     V more, obstacle;
   };
 
-  // `matter`: liquid, heat and obstacle as bytes of a lane. `normal` and `out`: see rule/shade.h.
+  // Returns the parts of the light from a surface. `matter` holds liquid, heat and obstacle as bytes of a
+  // lane. `normal` and `out` are those of rule/shade.h.
   VOXMELT_WORDS Shine shine_of(const PictureData& data, Triple normal, Triple out, Triple to_eye,
                                const Light& light, V matter, V obstacle_byte) {
     const picture::Paint& paint = *data.paint;
@@ -170,7 +172,7 @@ struct ShadePacket : Packet<Arch> {
     return sum;
   }
 
-  // What clear matter scatters at a place in it.
+  // Returns the light that clear matter scatters at a place in it.
   VOXMELT_WORDS Color inner_color(const PictureData& data, const Light& light, V matter) {
     const picture::Paint& paint = *data.paint;
     const V liquid_byte = matter & 255, liquid = (liquid_byte << 4) + (liquid_byte >> 4);

@@ -1,4 +1,4 @@
-// Tables that all pictures share.
+// All pictures share these tables.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@ namespace voxmelt::render {
 
 const picture::Tone& tone_table();
 const picture::Bytes& byte_table();
-// Of normal.h: the inverse root, and 65536 times how much the next one is less.
+// Returns the table of rule/normal.h. Each entry is the inverse root, plus 65536 times how much less the next
+// one is.
 const std::uint32_t* inverse_roots();
 
 }  // namespace voxmelt::render

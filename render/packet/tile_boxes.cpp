@@ -21,8 +21,8 @@ void take_in(BlockBox& box, const BlockBox& other) {
 
 }  // namespace
 
-// What is surrounded by the shell lies, along any ray from outside, between two parts of the shell; and a box
-// that holds both holds what is between. The eye must not be among them.
+// Finds the boxes. Blocks surrounded by the shell lie between two parts of it, along any ray from outside. A
+// box that holds both parts holds what is between. The eye must not be among them.
 TileBoxes::TileBoxes(const PictureData& data, const Projection& projection, int side)
     : across_((data.width + side - 1) / side), down_((data.height + side - 1) / side) {
   const bool apart = data.view.near > 0;
@@ -34,7 +34,7 @@ TileBoxes::TileBoxes(const PictureData& data, const Projection& projection, int 
     const BlockBox& box = data.field.shell[i];
     const VisibleArea area = projection.of(low_of_block(box.low[0], box.low[1], box.low[2]),
                                            low_of_block(box.high[0], box.high[1], box.high[2]));
-    // A place between two tiles counts to both.
+    // A place between two tiles counts for both.
     const auto first = [&](double at, int count) {
       return static_cast<int>(std::clamp(at / places - 1, 0.0, static_cast<double>(count)));
     };

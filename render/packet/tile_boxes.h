@@ -1,5 +1,5 @@
-// Where in each tile of a picture there may be matter: one box for all of its rays. So rays begin near the
-// matter, and tiles beside it look at none.
+// Each tile of a picture has one box for all of its rays, outside of which there is no matter. So rays begin
+// near the matter, and tiles beside it look at none.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace voxmelt::render {
 
-// Tiles of `side` pixels a side; the first is the upper left one, and rows follow each other.
+// Holds the boxes of tiles of `side` pixels a side. The first tile is the upper left one, and rows follow
+// each other.
 class TileBoxes {
  public:
   TileBoxes(const PictureData& data, const Projection& projection, int side);

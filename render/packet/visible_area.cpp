@@ -23,8 +23,8 @@ Projection::Projection(const picture::View& view)
       parallel_(view.wide == picture::Vector{}),
       half_width_(static_cast<double>(view.half_width)),
       half_height_(static_cast<double>(view.half_height)) {
-  // Places to a cell: at a depth of one cell, or of parallel rays anywhere.
-  constexpr double kLeast = 1e-12;  // of a cell to a place, where its vector is rounded to 0
+  // These are the places to a cell, at a depth of one cell, or anywhere for parallel rays.
+  constexpr double kLeast = 1e-12;  // cells to a place, if its vector is rounded to 0
   const double places = parallel_ ? 1 / std::max(dot_of(view.near_wide, view.right) / (kOne * kOne), kLeast)
                                   : half_height_ / (dot_of(view.wide, view.right) / (kOne * kOne));
   const double scale = places / kOne;
@@ -37,8 +37,9 @@ Projection::Projection(const picture::View& view)
   along_[2] = axis(view.forward.z, view.right.z, view.up.z);
 }
 
-// The projection of a box before the eye lies within that of its corners. Rays are off their lines by the
-// roundings of starts and steps, which are far below a cell within the grid: the box is taken a cell larger.
+// Projects a box. The projection of a box before the eye lies within that of its corners. Rays are off their
+// lines by the roundings of starts and steps. These are far below a cell within the grid, so the box is taken
+// a cell larger.
 VisibleArea Projection::of(picture::Vector low, picture::Vector high) const {
   VisibleArea area;
   if (low.x >= high.x || low.y >= high.y || low.z >= high.z) return area;

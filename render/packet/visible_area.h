@@ -1,4 +1,4 @@
-// Where in a picture a box may be seen, as a rectangle.
+// A box may be seen in a rectangle of the picture.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace voxmelt::render {
 
-// A rectangle in picture coordinates, ends included.
+// Bounds a rectangle in picture coordinates, ends included.
 struct VisibleArea {
   double left = 1e300, right = -1e300, top = 1e300, bottom = -1e300;
 
-  // May a ray through these places meet what is seen here?
+  // Tells whether a ray through these places may meet what is seen here.
   bool overlaps(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) const {
     return static_cast<double>(x0) <= right && static_cast<double>(x1) >= left &&
            static_cast<double>(y0) <= bottom && static_cast<double>(y1) >= top;
@@ -21,16 +21,17 @@ struct VisibleArea {
 class Projection {
  public:
   explicit Projection(const picture::View& view);
-  // Of the box low <= position < high, in 2^-20 cells; nowhere if it is empty.
+  // Returns the area of the box low <= position < high, in 2^-20 cells. It is nowhere if the box is empty.
   VisibleArea of(picture::Vector low, picture::Vector high) const;
 
  private:
-  struct Axes {  // of a position, all linear in it
+  struct Axes {  // numbers of a position, all linear in it
     double depth, across, down;
   };
   double eye_[3];
-  bool parallel_;  // then nothing is divided, and nothing is behind the eye
-  Axes along_[3];  // by a cell along each axis; across and down are still to be divided by the depth
+  bool parallel_;  // if so, nothing is divided, and nothing is behind the eye
+  // Each cell along an axis adds these. Across and down are still to be divided by the depth.
+  Axes along_[3];
   double half_width_, half_height_;
 };
 

@@ -1,4 +1,4 @@
-// The levels of a field's cells (docs/picture/definition.md, section 6).
+// The cells of a field have levels (docs/picture/definition.md, section 6).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class Levels {
  public:
   explicit Levels(const DensityField& field);
 
-  // Of any cell; air outside the grid.
+  // Returns the level of any cell. Outside the grid it is that of air.
   std::int32_t operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     if (x < 0 || y < 0 || z < 0 || x >= grid_.x || y >= grid_.y || z >= grid_.z) return picture::kAir;
     return levels_[grid_.index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))];

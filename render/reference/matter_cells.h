@@ -1,5 +1,4 @@
-// What the cells of a field are made of, as the picture's shading reads it (docs/picture/light.md, section
-// 3).
+// The picture's shading reads the matter of a field's cells in this form (docs/picture/light.md, section 3).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@ class MatterCells {
   MatterCells(const DensityField& field, const Levels& levels, const picture::Look& look)
       : field_(field), levels_(levels), look_(look) {}
 
-  // Of any cell; nothing where the level is that of air.
+  // Returns the matter of any cell. A cell with the level of air has none.
   picture::Matter operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const state::Grid& grid = field_.grid();
     if (levels_(x, y, z) == picture::kAir) return {};

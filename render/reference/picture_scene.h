@@ -1,4 +1,4 @@
-// All that a picture in integers is drawn from, but for the camera.
+// A picture in integers is drawn from this scene and a camera.
 #pragma once
 
 #include "kernel/scene/look.h"

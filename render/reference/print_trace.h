@@ -1,4 +1,4 @@
-// The trace of one pixel of a state, as text (docs/picture/trace.md).
+// The trace of one pixel of a state is printed as text (docs/picture/trace.md).
 #pragma once
 
 #include <ostream>
@@ -10,7 +10,8 @@
 
 namespace voxmelt::render {
 
-// Pixel (x, y) from the upper left corner. A terrain of another size than the volume's is none.
+// Prints the trace of pixel (x, y), counted from the upper left corner. A terrain of another size than the
+// volume's counts as none.
 void print_trace(std::ostream& out, const state::Volume& volume, const scene::Look& look,
                  const scene::Light& light, const scene::Terrain& terrain, const scene::Camera& camera,
                  Setting setting, int x, int y);

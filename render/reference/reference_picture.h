@@ -1,5 +1,5 @@
-// The picture by plain loops over render/rule (docs/picture/definition.md): what faster programs are held
-// against.
+// The reference draws the picture by plain loops over render/rule (docs/picture/definition.md). Faster
+// programs are checked against it.
 #pragma once
 
 #include "render/image/image.h"

@@ -1,4 +1,4 @@
-// Pixels of the reference, one by one (docs/picture/definition.md, section 10).
+// The reference draws its pixels one by one (docs/picture/definition.md, section 10).
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ class ReferencePixels {
   Rgb with_more_samples(std::int64_t x, std::int64_t y) const {
     return setting_ == Setting::best ? mean(x, y, picture::kThirtyTwo) : mean(x, y, picture::kEight);
   }
-  // Of a picture with one sample a pixel, whose pixels at(x, y) gives.
+  // Tells whether a pixel needs more samples. The function at(x, y) gives the pixels of a picture with one
+  // sample a pixel.
   template <class At>
   bool needs_more_samples(const At& at, std::int64_t x, std::int64_t y) const {
     if (setting_ == Setting::fast) return false;
@@ -85,7 +86,7 @@ class ReferencePixels {
   const Watch watch_;
 };
 
-// The whole picture.
+// Draws the whole picture.
 template <class Watch>
 Image picture_of(const ReferencePixels<Watch>& pixels, const picture::Camera& camera) {
   Image image(static_cast<int>(camera.width), static_cast<int>(camera.height));

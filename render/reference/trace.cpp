@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 19> kStages{
     "paint",   "texture", "matter", "light", "arriving", "material", "mirror", "colour", "clear"};
 static_assert(kStages.size() == static_cast<std::size_t>(Stage::clear) + 1);
 
-// The numbers of a value, one after the other.
+// Holds the numbers of a value, one after the other.
 struct Numbers {
   std::array<std::int64_t, 16> values{};
   std::size_t count = 0;
@@ -68,7 +68,7 @@ struct Telling {
     numbers.add(value);
     listener.told(stage, name, {numbers.values.data(), numbers.count});
   }
-  // The brick that serves a sample at a position (docs/picture/definition.md, section 12).
+  // Tells the brick that serves a sample at a position (docs/picture/definition.md, section 12).
   void read_at(Vector position) {
     const auto along = [](std::int64_t p) {
       return (picture::place_of(p).cell + kLatticeBorder) / kBrickSide;
@@ -102,7 +102,7 @@ void tell_material(const Teller& teller, const std::array<const char*, 4>& names
   teller(Stage::picture, names[3], material.gloss);
 }
 
-// What all rays share, but for tables.
+// Tells the numbers that all rays share, except the tables.
 void tell_picture(const Teller& teller, const PictureScene& scene, const picture::View& view) {
   const auto tell = [&](const char* name, const auto& value) { teller(Stage::picture, name, value); };
   tell("eye", view.eye);

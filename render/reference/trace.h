@@ -1,4 +1,4 @@
-// The trace: all numbers by which the reference draws, in the order in which they come about
+// The trace tells all numbers by which the reference draws, in the order in which they come about
 // (docs/picture/trace.md).
 #pragma once
 
@@ -19,7 +19,8 @@ namespace voxmelt::render {
 
 class Listener {
  public:
-  // What a memory gave has the name "fetched". Its cell comes first, and then the value.
+  // Is called with each number or group of numbers. Values from a memory have the name "fetched". Their cell
+  // comes first, and then the value.
   virtual void told(picture::Stage stage, std::string_view name, std::span<const std::int64_t> numbers) = 0;
 
  protected:
@@ -28,15 +29,16 @@ class Listener {
 
 std::string_view name_of(picture::Stage stage);
 
-// The same picture as that of reference_picture(scene, camera, setting).
+// Draws the same picture as reference_picture(scene, camera, setting).
 Image reference_picture(const PictureScene& scene, const picture::Camera& camera, Setting setting,
                         Listener& listener);
-// One pixel of it, as far as it is computed for its own sake. What its neighbours say is not told.
+// Draws one pixel of it. Only numbers computed for its own sake are told, and those of its neighbours are
+// not.
 Rgb reference_pixel(const PictureScene& scene, const picture::Camera& camera, Setting setting, std::int64_t x,
                     std::int64_t y, Listener& listener);
 
-// The trace as lines of text: stage, name, numbers. What a sample, a normal or a light fetches, and its rows,
-// come in one line.
+// Writes the trace as lines of text, each with stage, name and numbers. Values that a sample, a normal or a
+// light fetches, and its rows, come in one line.
 class TraceText : public Listener {
  public:
   explicit TraceText(std::ostream& out) : out_(out) {}

@@ -1,4 +1,4 @@
-// Sine and cosine by their power series in integers (docs/picture/definition.md, section 2).
+// Sine and cosine are computed by their power series in integers (docs/picture/definition.md, section 2).
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ struct SineCosine {
 
 inline constexpr std::int64_t kRadiansPerDegree = 1228166276394;  // 2^46 pi / 180
 
-// Any angle of less than 2^16 degrees.
+// Takes any angle of less than 2^16 degrees.
 VOXMELT_RULE SineCosine sine_cosine(std::int64_t angle) {
   const std::int64_t quarter = floor_divided(angle, kQuarterTurn);
   const std::int64_t rest = angle - quarter * kQuarterTurn;  // 0 <= rest < a quarter turn
   const std::int64_t radians = rounded(rest * kRadiansPerDegree, 32);
-  // The terms x^n / n!, with the signs + + - - of cosine and sine in turn.
+  // The terms are x^n / n!. Cosine and sine take them in turn, with the signs + + - -.
   std::int64_t term = kUnit, sine = 0, cosine = kUnit;
   for (int n = 1; n <= 17; ++n) {
     term = (term * radians >> kUnitBits) / n;

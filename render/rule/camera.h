@@ -1,5 +1,4 @@
-// From a camera in numbers of a scene file to the ray of a pixel (docs/picture/definition.md, sections 3 and
-// 4).
+// The camera of a scene file gives the ray of each pixel (docs/picture/definition.md, sections 3 and 4).
 #pragma once
 
 #include <algorithm>
@@ -18,26 +17,28 @@ struct Camera {
   std::int64_t distance = 0;                // in 2^-12 cells, up to 2^18 cells; 0: so that the grid fits
   std::int64_t azimuth = 0, elevation = 0;  // in kDegree
   std::int64_t half_field = 0;              // half of the vertical field of view, in kDegree
-  std::int64_t width = 0, height = 0;       // of the picture, in pixels
-  bool parallel = false;                    // all rays are: the picture shows what it would at the target
+  std::int64_t width = 0, height = 0;       // size of the picture, in pixels
+  // True if all rays are parallel. The picture then shows as much as a perspective shows at the target.
+  bool parallel = false;
 };
 
-inline constexpr std::int64_t kPixel = 64;     // picture coordinates to a pixel
-inline constexpr std::int64_t kNearUnit = 16;  // distances of the near plane to a cell
+inline constexpr std::int64_t kPixel = 64;     // picture coordinates per pixel
+inline constexpr std::int64_t kNearUnit = 16;  // units per cell, for distances of the near plane
 
-// What all rays of a picture share.
+// Holds the numbers that all rays of a picture share.
 struct View {
-  Vector eye;                   // in kCell
-  Vector forward, right, up;    // of length kUnit
-  Vector wide, high;            // right and up times the tangent of half the field of view, in kUnit; or 0
-  std::int64_t near = 0;        // depth of the plane on which the rays start, in kNearUnit
-  Vector near_wide, near_high;  // on that plane, a picture coordinate further; 2^30 is a cell
-  std::int64_t half_width = 0, half_height = 0;  // of the picture, in picture coordinates
-  std::int64_t distance = 0;                     // of the camera from its target, in 2^-12 cells
-  int halvings = 0;                              // of the step of rays; see halvings_of
+  Vector eye;                 // in kCell
+  Vector forward, right, up;  // length kUnit
+  Vector wide, high;      // right and up times the tangent of half the field of view, in kUnit; 0 if parallel
+  std::int64_t near = 0;  // depth of the plane on which the rays start, in kNearUnit
+  Vector near_wide, near_high;  // one picture coordinate further on that plane; 2^30 is a cell
+  std::int64_t half_width = 0, half_height = 0;  // half the picture's size, in picture coordinates
+  std::int64_t distance = 0;                     // distance of the camera from its target, in 2^-12 cells
+  int halvings = 0;                              // halvings of the step of rays; see halvings_of
 };
 
-// The depth of the nearest corner of the grid, a little less. The grid counts with half a cell around it.
+// Returns the depth of the nearest corner of the grid, a little less. The grid counts with half a cell around
+// it.
 VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
   std::int64_t near = std::int64_t{1} << 40;
   for (int corner = 0; corner < 8; ++corner) {
@@ -49,7 +50,7 @@ VOXMELT_RULE std::int64_t near_depth(Vector eye, Vector forward, Vector cells) {
   return near - 3;
 }
 
-// The distance at which every corner of the grid is inside the picture, with a little air around it.
+// Returns the distance at which every corner of the grid is inside the picture, with a little air around it.
 VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, const View& view,
                                           std::int64_t tangent) {
   std::int64_t distance = 0;
@@ -58,7 +59,7 @@ VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, co
                        (corner & 4) != 0 ? cells.z * kCell : 0};
     const Vector from_target = (point - camera.target) >> 8;
     const auto along = [&](Vector axis) { return dot(from_target, axis) >> kUnitBits; };
-    const auto reach = [&](std::int64_t aside) {  // 1055 / 1024 is the air; tangents are of half the picture
+    const auto reach = [&](std::int64_t aside) {  // 1055 / 1024 is the air; tangents count from the middle
       return floor_divided(std::min(magnitude(aside) * 1055, std::int64_t{1} << 42) << 20, tangent);
     };
     const std::int64_t depth = camera.parallel ? 0 : -along(view.forward);
@@ -69,8 +70,8 @@ VOXMELT_RULE std::int64_t fitted_distance(const Camera& camera, Vector cells, co
   return std::clamp<std::int64_t>(distance, 1, std::int64_t{1} << 30);
 }
 
-// How often the step of rays is halved because pixels are small. The height of a pixel on the near plane is
-// tangent near / (2^33 height) cells, and 15/128 of a cell, or half of that, are the limits.
+// Returns how often the step of rays is halved because pixels are small. The height of a pixel on the near
+// plane is tangent near / (2^33 height) cells. The limits are 15/128 of a cell and half of that.
 VOXMELT_RULE int halvings_of(std::int64_t tangent, std::int64_t near, std::int64_t height) {
   const std::int64_t pixel = tangent * near, limit = height * (std::int64_t{15} << 25);  // below 2^56, 2^50
   return pixel >= 2 * limit ? 0 : pixel >= limit ? 1 : 2;
@@ -101,7 +102,8 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   if (camera.parallel && near < 1) view.eye = view.eye + ((view.forward * (near - 1)) >> 14);
   view.near = std::max<std::int64_t>(camera.parallel ? 1 : 0, near);
 
-  // How wide the picture is on the near plane follows from that plane's depth, or else from the target's.
+  // The width of the picture on the near plane follows from that plane's depth, or with parallel rays from
+  // the target's.
   constexpr std::int64_t kFiner = 4096 / kNearUnit;
   view.halvings = halvings_of(tangent, camera.parallel ? distance / kFiner : view.near, camera.height);
   const auto on_plane = [&](std::int64_t a) {
@@ -114,8 +116,8 @@ VOXMELT_RULE View view_of(const Camera& camera, Vector cells) {
   return view;
 }
 
-// The ray through a place of the picture: `across` and `down` from its upper left corner, in 1 / kPixel of a
-// pixel. The middle of pixel (i, j) is (kPixel i + kPixel / 2, kPixel j + kPixel / 2).
+// Returns the ray through a place of the picture. `across` and `down` count from its upper left corner, in
+// 1/kPixel of a pixel. The middle of pixel (i, j) is (kPixel i + kPixel / 2, kPixel j + kPixel / 2).
 template <class Watch = Silent>
 VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t down, int spacing,
                              Watch watch = {}) {
@@ -131,13 +133,14 @@ VOXMELT_RULE Ray ray_through(const View& view, std::int64_t across, std::int64_t
   return {start, step};
 }
 
-// How far a position is from the eye along the direction of view, in 1 / kDepthUnit of a cell.
+// Distances of a position from the eye, along the direction of view, are in 1 / kDepthUnit of a cell.
 inline constexpr std::int64_t kDepthUnit = 4096;
 VOXMELT_RULE std::int64_t depth_from_eye(const View& view, Vector position) {
   return dot((position - view.eye) >> 8, view.forward) >> kUnitBits;
 }
-// The depth of a position in a depth picture: 32nds of a cell from the plane on which the rays start.
-inline constexpr std::int64_t kNoDepth = 65535;  // of a ray that meets nothing
+// Returns the depth of a position in a depth picture. It counts 32nds of a cell from the plane on which the
+// rays start.
+inline constexpr std::int64_t kNoDepth = 65535;  // depth of a ray that meets nothing
 VOXMELT_RULE std::int64_t depth_in_picture(const View& view, Vector position) {
   return std::clamp<std::int64_t>((depth_from_eye(view, position) - view.near * 256) >> 7, 0, kNoDepth - 1);
 }

@@ -1,4 +1,5 @@
-// What clear matter lets through, front to back along a ray (docs/picture/translucent.md).
+// Clear matter lets a part of the light through. It is followed front to back along a ray
+// (docs/picture/translucent.md).
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,8 @@ namespace voxmelt::picture {
 inline constexpr int kWayBits = 16;
 inline constexpr std::int32_t kMostWay = (1 << 27) - 1;
 
-// The share that passes, kPassed is 1: entry i is 2^(-i / 256), and the last is 0, where less than 1/255
-// would be left. One more is read beside it.
+// Holds the share that passes, where kPassed is 1. Entry i is 2^(-i / 256). The last is 0, as less than 1/255
+// would be left there. One entry more is read beside it.
 inline constexpr int kPassedBits = 15;
 inline constexpr std::int32_t kPassed = 1 << kPassedBits;
 inline constexpr std::int32_t kNothingPasses = 2047;
@@ -36,7 +37,8 @@ VOXMELT_RULE Passing passing_table() {
   return table;
 }
 
-// Entries of the table per cell, of each channel, in 1 / 16; 4096 at most.
+// Returns how many entries of the table a cell takes, for each channel, in 1 / 16. The result is 4096 at
+// most.
 VOXMELT_RULE Color losses_of(const Color& clear) {
   Color color{};
   for (std::size_t c = 0; c < 3; ++c)
@@ -45,7 +47,7 @@ VOXMELT_RULE Color losses_of(const Color& clear) {
 }
 VOXMELT_RULE bool is_clear(const Look& look) { return !look.glow && look.clear != Color{}; }
 
-// What the surfaces and the ways so far have left of the light behind.
+// Holds the share of the light from behind that surfaces and ways have left so far.
 struct Left {
   std::int32_t surfaces = kLight;
   std::int32_t way = 0;
@@ -65,24 +67,25 @@ VOXMELT_RULE std::int32_t dimmed(std::int32_t surfaces, std::int32_t lost) {
 }
 VOXMELT_RULE std::int32_t further(std::int32_t way, std::int32_t by) { return std::min(way + by, kMostWay); }
 
-// The length of a step in 2^-16 cells; `to_eye` is its direction backwards, of kLength.
+// Returns the length of a step in 2^-16 cells. `to_eye` is its direction backwards, of kLength.
 VOXMELT_RULE std::int32_t length_of_step(Vector step, Vector to_eye) {
   return static_cast<std::int32_t>(dot((Vector{} - step) >> (kPositionBits - kWayBits), to_eye) >>
                                    kNormalBits);
 }
 
-// How dense clear matter is for the light of the scene, by its density 0 .. 255: `share` in 256ths is left
-// of what exceeds the fringe.
+// Returns how dense clear matter is for the light of the scene, from its density 0 .. 255. Above the fringe,
+// only `share` 256ths of the density are left.
 VOXMELT_RULE std::int32_t thinned(std::int32_t density, std::int32_t share) {
   return density <= 12 ? density : 12 + (((density - 12) * share) >> 8);
 }
-// `shift` is that of the grid of light. A full cell of light takes what its width lets not pass of green.
+// Returns the `share` of `thinned`. `shift` is that of the grid of light. A full cell of light absorbs the
+// green light that does not pass through its width.
 VOXMELT_RULE std::int32_t density_share(const Passing& table, const Color& losses, int shift) {
   const std::int32_t i = std::min(((1 << (shift + 8)) * losses[1]) >> 12, kNothingPasses);
   return (180 * (256 - (table[static_cast<std::size_t>(i)] >> 7))) >> 8;
 }
 
-// Light at a place in clear matter, from all sides; kLight is 1.
+// Returns the light at a place in clear matter, from all sides. kLight is 1.
 VOXMELT_RULE Color inner_light(const Color& lamp, const Color& from_below, const Color& from_above,
                                const Light& light) {
   const std::int32_t beside = light.open[0] + light.open[1] + light.open[4] + light.open[5];

@@ -1,4 +1,4 @@
-// Where a ray first meets matter (docs/picture/definition.md, section 7).
+// A ray first meets matter at its crossing (docs/picture/definition.md, section 7).
 #pragma once
 
 #include <algorithm>
@@ -13,24 +13,25 @@
 namespace voxmelt::picture {
 
 inline constexpr int kBisections = 3;
-inline constexpr std::int32_t kParts = 256;  // of the last interval
+inline constexpr std::int32_t kParts = 256;  // parts of the last interval
 
-// The share of an interval at which a straight line from `outside` < 0 to `inside` >= 0 is 0, in kParts.
+// Returns the share of an interval at which a straight line is 0, in kParts. The line runs from `outside` < 0
+// to `inside` >= 0.
 VOXMELT_RULE std::int32_t false_position(std::int32_t outside, std::int32_t inside) {
   return -outside * kParts / (inside - outside);
 }
 
-inline constexpr std::int32_t kPlaces = (1 << kBisections) * kParts;  // of a step
+inline constexpr std::int32_t kPlaces = (1 << kBisections) * kParts;  // places in a step
 
 struct Crossing {
   bool found = false;
-  std::int64_t sample = 0;  // the first that lies in matter
-  std::int32_t part = 0;    // of the step to that sample, 0 .. kPlaces
+  std::int64_t sample = 0;  // first sample that lies in matter
+  std::int32_t part = 0;    // part of the step to that sample, 0 .. kPlaces
   Vector position;
 };
 
-// Between the positions of two samples, of which `k` is matter and the other one air: bisections, and then a
-// straight line.
+// Finds the crossing between the positions of two samples, of which `k` is matter and the other one air. It
+// takes bisections, and then a straight line.
 template <class Levels, class Watch = Silent>
 VOXMELT_RULE Crossing crossing_between(const Levels& levels, Vector outside, Vector inside, std::int64_t k,
                                        Watch watch = {}) {
@@ -67,7 +68,7 @@ VOXMELT_RULE Crossing crossing_before(const Levels& levels, const Ray& ray, std:
   return crossing_between(levels, ray.at(k - 1), ray.at(k), k, watch);
 }
 
-// From sample `from` on. A ray that starts in matter meets it at its start.
+// Finds the first crossing from sample `from` on. A ray that starts in matter meets it at its start.
 template <class Levels, class Watch = Silent>
 VOXMELT_RULE Crossing first_crossing(const Levels& levels, Vector cells, const Ray& ray,
                                      std::int64_t from = 0, Watch watch = {}) {

@@ -1,4 +1,4 @@
-// Number formats of the picture (docs/picture/definition.md, section 1).
+// The picture has these number formats (docs/picture/definition.md, section 1).
 #pragma once
 
 #include <algorithm>
@@ -28,23 +28,23 @@ VOXMELT_RULE std::int64_t dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y
 
 VOXMELT_RULE std::int64_t magnitude(std::int64_t a) { return a < 0 ? -a : a; }
 
-// The largest magnitude of a component.
+// Returns the largest magnitude of a component.
 VOXMELT_RULE std::int64_t largest(Vector a) {
   return std::max(std::max(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
 }
 
-// How many bits a takes, a >= 0: the least n with a < 2^n.
+// Returns how many bits a >= 0 takes. This is the least n with a < 2^n.
 VOXMELT_RULE int bits_of(std::int64_t a) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a)));
 }
 
-// floor(a / b) and ceil(a / b), b > 0.
+// These return floor(a / b) and ceil(a / b), where b > 0.
 VOXMELT_RULE std::int64_t floor_divided(std::int64_t a, std::int64_t b) {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 VOXMELT_RULE std::int64_t ceil_divided(std::int64_t a, std::int64_t b) { return -floor_divided(-a, b); }
 
-// a / 2^n to the nearest integer, halves upwards; n > 0.
+// Returns a / 2^n to the nearest integer, with halves upwards and n > 0.
 VOXMELT_RULE std::int64_t rounded(std::int64_t a, int n) { return (a + (std::int64_t{1} << (n - 1))) >> n; }
 
 }  // namespace voxmelt::picture

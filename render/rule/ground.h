@@ -1,5 +1,4 @@
-// Where a ray first meets the ground, and the ground's normal there (docs/picture/ground.md, sections 3 to
-// 5).
+// A ray first meets the ground at a place with a normal (docs/picture/ground.md, sections 3 to 5).
 #pragma once
 
 #include <algorithm>
@@ -15,24 +14,26 @@
 
 namespace voxmelt::picture {
 
-// How far a position lies above the ground of its column, in 1 / kHeight; in the ground it is below 0.
+// Returns how far a position lies above the ground of its column, in 1 / kHeight. In the ground it is below
+// 0.
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE std::int64_t above_ground(const Heights& heights, Vector cells, Vector p, Watch watch = {}) {
   watch(Stage::ground, "position", p);
   return (p.y >> (kPositionBits - kHeightBits)) - height_at(heights, cells, p.x, p.z, watch);
 }
 
-// The ground is all that lies below the heights, within the grid's sides and above y = 0.
+// Tells whether a position is in the ground. The ground is all that lies below the heights, within the grid's
+// sides and above y = 0.
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p, Watch watch = {}) {
   return p.x >= 0 && p.x < cells.x * kCell && p.z >= 0 && p.z < cells.z * kCell && p.y >= 0 &&
          above_ground(heights, cells, p, watch) < 0;
 }
 
-// Through which a ray enters. A ray that starts in the ground enters through none.
+// Names the face through which a ray enters. A ray that starts in the ground enters through none.
 enum class Face : std::uint8_t { none, low_x, high_x, low_z, high_z, under, top };
 
-// The face between a position outside of the ground and one inside that is near.
+// Returns the face between a position outside of the ground and a near one inside.
 VOXMELT_RULE Face face_before(Vector cells, Vector outside) {
   if (outside.x < 0) return Face::low_x;
   if (outside.x >= cells.x * kCell) return Face::high_x;
@@ -41,7 +42,7 @@ VOXMELT_RULE Face face_before(Vector cells, Vector outside) {
   return outside.y < 0 ? Face::under : Face::top;
 }
 
-// Places on a ray are in parts of its steps: sample k lies at part k kParts.
+// Places on a ray count in parts of its steps. Sample k lies at part k kParts.
 inline constexpr int kPartBits = 8;
 VOXMELT_RULE Vector position_at(const Ray& ray, std::int64_t part) {
   return ray.start + ((ray.step * part) >> kPartBits);
@@ -49,18 +50,20 @@ VOXMELT_RULE Vector position_at(const Ray& ray, std::int64_t part) {
 
 struct GroundCrossing {
   bool found = false;
-  std::int64_t part = 0;  // the place on the ray, in the ground; the part before it lies outside
+  std::int64_t part = 0;  // place on the ray, in the ground; the part before it lies outside
   Vector position;
   Face face = Face::none;
 };
 
-// The parts of a ray in the box around the ground. `highest` is that of the columns, before the lowering.
+// Returns the parts of a ray in the box around the ground. `highest` is the greatest height of the columns,
+// before the lowering.
 VOXMELT_RULE Samples ground_parts(Vector cells, std::int32_t highest, const Ray& ray) {
   const Vector high{cells.x * kCell, std::int64_t{highest} << (kPositionBits - kHeightBits), cells.z * kCell};
   return samples_in({ray.start * kParts, ray.step}, {}, high * kParts);
 }
 
-// `inside` is in the ground and `outside` before it is not. Bisections find neighbours of which that holds.
+// Finds the crossing between `inside`, which is in the ground, and `outside` before it, which is not.
+// Bisections end at neighbours with the same property.
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells, const Ray& ray,
                                            std::int64_t outside, std::int64_t inside, Watch watch = {}) {
@@ -82,11 +85,11 @@ VOXMELT_RULE GroundCrossing ground_between(const Heights& heights, Vector cells,
   return {true, inside, position_at(ray, inside), face};
 }
 
-// Three kinds of places are looked at, in their order on the ray: where it enters the box around the ground,
-// each sample, and where it leaves the box. So edges of the slab have no teeth.
+// Looks at three kinds of places, in their order on the ray. They are the entry into the box around the
+// ground, each sample, and the exit from the box. So edges of the slab have no teeth.
 //
-// leap(above) may say how many samples behind a place so far above the ground are outside as well; 0 leaves
-// out none.
+// leap(above) may tell how many samples behind a place so far above the ground are outside as well. A leap of
+// 0 leaves out none.
 template <class Heights, class Leap, class Watch = Silent>
 VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, std::int32_t highest,
                                          const Ray& ray, const Leap& leap, Watch watch = {}) {
@@ -112,7 +115,8 @@ VOXMELT_RULE GroundCrossing first_ground(const Heights& heights, Vector cells, s
   return first_ground(heights, cells, highest, ray, [](std::int64_t) { return std::int64_t{0}; });
 }
 
-// The normal of a height field of such falls to a cell, in kHeight, along x and z.
+// Returns the normal of a height field. The field falls by fall_x and fall_z per cell along x and z, in
+// kHeight.
 template <class Watch = Silent>
 VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z, Watch watch = {}) {
   const Vector a{fall_x, kHeight, fall_z};
@@ -120,8 +124,8 @@ VOXMELT_RULE Vector slope_normal(std::int64_t fall_x, std::int64_t fall_z, Watch
   return unit(a >> std::max(0, bits_of(largest(a)) - 14), watch);
 }
 
-// The slab's upper edges are rounded, over half a cell, so that they catch the light. This is how much the
-// fall of the top grows there.
+// Returns how much the fall of the top grows at the slab's upper edges. They are rounded, over half a cell,
+// so that they catch the light.
 VOXMELT_RULE std::int64_t rim(std::int64_t position, std::int64_t cells) {
   const auto near = [](std::int64_t distance) {
     return std::max<std::int64_t>(0, kCell / 2 - distance) >> (kPositionBits - kHeightBits - 1);
@@ -129,7 +133,8 @@ VOXMELT_RULE std::int64_t rim(std::int64_t position, std::int64_t cells) {
   return near(cells * kCell - position) - near(position);
 }
 
-// Out of the ground. `heights` are those before the lowering: a film does not bend the light beside it.
+// Returns the normal that points out of the ground. `heights` are those before the lowering, because a film
+// does not bend the light beside it.
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE Vector ground_normal(const Heights& heights, Vector cells, Vector position, Face face,
                                   Watch watch = {}) {

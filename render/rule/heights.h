@@ -1,4 +1,5 @@
-// The ground's heights, from columns to any place (docs/picture/ground.md, sections 1 and 2).
+// The ground's heights are given by columns and interpolated to any place (docs/picture/ground.md, sections 1
+// and 2).
 //
 // A height is in 1 / kHeight of a cell, at the middle of its column. Outside the grid the nearest column
 // repeats itself.
@@ -17,18 +18,18 @@ namespace voxmelt::picture {
 inline constexpr int kHeightBits = 12;
 inline constexpr std::int32_t kHeight = 1 << kHeightBits;
 
-// One axis of a pass of the low-pass filter.
+// Filters along one axis, in a pass of the low-pass filter.
 VOXMELT_RULE std::int32_t softened(std::int32_t before, std::int32_t here, std::int32_t after) {
   return (before + 2 * here + after + 2) >> 2;
 }
 
-// A column under matter is lower by half a cell, or its ground would stick out of a thin film. `wetness` is
-// 0 .. kHeight.
+// Returns the lowered height of a column. Under matter it is lower by half a cell, or its ground would stick
+// out of a thin film. `wetness` is 0 .. kHeight.
 VOXMELT_RULE std::int32_t lowered(std::int32_t height, std::int32_t wetness) {
   return height - ((wetness + 1) >> 1);
 }
 
-// The bilinear interpolation of a table of columns x rows at two places. at(x, z) gives an entry.
+// Returns the bilinear interpolation of a table of columns x rows at two places. at(x, z) gives an entry.
 template <class At>
 VOXMELT_RULE std::int32_t bilinear(const At& at, std::int64_t columns, std::int64_t rows, Place x, Place z) {
   const auto within = [](std::int64_t i, std::int64_t count) {
@@ -42,7 +43,7 @@ VOXMELT_RULE std::int32_t bilinear(const At& at, std::int64_t columns, std::int6
                  z.weight);
 }
 
-// Heights(x, z) gives the height of a column of the grid.
+// Returns the height of the ground at a place. heights(x, z) gives the height of a column of the grid.
 template <class Heights, class Watch = Silent>
 VOXMELT_RULE std::int32_t height_at(const Heights& heights, Vector cells, std::int64_t x, std::int64_t z,
                                     Watch watch = {}, Stage stage = Stage::ground) {

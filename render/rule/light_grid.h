@@ -1,5 +1,5 @@
-// Light as small volumes: what of the lamp, of the surroundings and of glowing liquid arrives where
-// (docs/picture/light.md, sections 4 and 5).
+// Light is kept in small volumes. They tell how much of the lamp, of the surroundings and of glowing liquid
+// arrives at a place (docs/picture/light.md, sections 4 and 5).
 //
 // The grid of light is coarser than the grid of cells. Its values are bytes, swept slice by slice.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace voxmelt::picture {
 
-// A cell of light is 2^shift cells wide.
+// Returns the shift of the grid of light. A cell of light is 2^shift cells wide.
 VOXMELT_RULE int light_shift(Vector cells) {
   int shift = 1;
   while (cells.x * cells.y * cells.z > std::int64_t{1} << (19 + 3 * shift)) ++shift;
@@ -28,48 +28,50 @@ VOXMELT_RULE Vector light_cells(Vector cells) {
   return {count(cells.x), count(cells.y), count(cells.z)};
 }
 
-// How much light is lost in a cell of light, 0 .. 256, by its density 0 .. 255. The least densities count as
-// nothing: they are the blurred fringe of the surface that is lit.
+// Returns how much light is lost in a cell of light, 0 .. 256, from its density 0 .. 255. The least densities
+// count as nothing, because they are the blurred fringe of the lit surface.
 VOXMELT_RULE std::int32_t loss_of(std::int32_t density) { return std::clamp((density - 12) * 3 / 2, 0, 256); }
 
-// What leaves a cell of what arrived there.
+// Returns the part of the arrived light that leaves a cell.
 VOXMELT_RULE std::int32_t passed(std::int32_t arrived, std::int32_t loss) {
   return (arrived * (256 - loss) + 128) >> 8;
 }
 
-// A sweep along the lamp's direction follows a lattice of rays through the slices, one ray for each cell of
-// the first one. At slice s a ray lies s slopes further along an axis: so many cells, and a part of one.
+// Holds the shift of a ray at a slice, in whole cells and a part of one. A sweep along the lamp's direction
+// follows a lattice of rays through the slices, one for each cell of the first slice. At slice s a ray lies s
+// slopes further along an axis.
 struct Shift {
   std::int32_t cells = 0, part = 0;  // 0 <= part < 256
 };
 
-// `slope`: the direction's component along the axis over that along which is swept, at most 1, in 2^14.
+// Returns the shift at a slice. `slope` is the direction's component along the axis over that along the
+// sweep, at most 1, in 2^14.
 VOXMELT_RULE Shift shift_at(std::int64_t slice, std::int32_t slope) {
   const std::int64_t way = (slice * slope) >> (kNormalBits - 8);
   return {static_cast<std::int32_t>(way >> 8), static_cast<std::int32_t>(way & 255)};
 }
 
-// One axis: rays get a little softer from slice to slice, so shadows do with the distance from what casts
-// them.
+// Softens rays a little along one axis, from slice to slice. So shadows soften with the distance from their
+// cause.
 VOXMELT_RULE std::int32_t softer(std::int32_t before, std::int32_t here, std::int32_t behind) {
   return (before + 30 * here + behind + 16) >> 5;
 }
 
-// One axis of a sweep along an axis of the grid: a wide cone.
+// Spreads light along one axis in a sweep along an axis of the grid, as a wide cone.
 VOXMELT_RULE std::int32_t spread(const std::array<std::int32_t, 5>& from) {
   return (from[0] + 2 * (from[1] + from[2] + from[3]) + from[4] + 4) >> 3;
 }
 
-// What is far away hides less, and glow from far away lights less.
+// Distant matter hides less, and glow from far away lights less.
 VOXMELT_RULE std::int32_t opened(std::int32_t open) { return open + ((255 - open + 7) >> 3); }
 VOXMELT_RULE std::int32_t faded(std::int32_t glow) { return glow - ((glow + 8) >> 4); }
 
-// What leaves a cell of light that glows.
+// Returns the light that leaves a glowing cell of light.
 VOXMELT_RULE std::int32_t glowing(std::int32_t arrived, std::int32_t loss, std::int32_t emission) {
   return std::min(passed(arrived, loss) + emission, 255);
 }
 
-// The six directions from which light comes: from +x, -x, +y, -y, +z, -z.
+// Light comes from six directions, which are +x, -x, +y, -y, +z and -z.
 inline constexpr int kSides = 6;
 
 struct Light {
@@ -88,8 +90,8 @@ VOXMELT_RULE Light between(const Light& a, const Light& b, std::int32_t weight) 
   return light;
 }
 
-// The light at a position: between eight cells of light, of which those beyond the grid repeat the nearest.
-// lights(x, y, z) gives the light of a cell of light.
+// Returns the light at a position, interpolated between eight cells of light. Those beyond the grid repeat
+// the nearest. lights(x, y, z) gives the light of a cell of light.
 template <class Lights, class Watch = Silent>
 VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vector position,
                             Watch watch = {}) {
@@ -116,12 +118,12 @@ VOXMELT_RULE Light light_at(const Lights& lights, Vector count, int shift, Vecto
   return light;
 }
 
-// Where the light of a surface is read: one cell of light in front of it.
+// Returns the place at which the light of a surface is read, one cell of light in front of it.
 VOXMELT_RULE Vector before_surface(Vector position, Vector normal, int shift) {
   return position + normal * (std::int64_t{1} << (kPositionBits - kNormalBits + shift));
 }
 
-// Six values as seen along a unit vector: each axis counts by the square of the component.
+// Returns six values as seen along a unit vector. Each axis counts by the square of the component.
 VOXMELT_RULE std::int32_t seen_along(const std::array<std::int32_t, kSides>& sides, Vector direction) {
   const auto part = [&](std::int64_t component, std::size_t axis) {
     const std::int64_t weight = (component * component) >> kNormalBits;

@@ -1,4 +1,5 @@
-// The look of a picture in integers, and what its shading needs of it (docs/picture/light.md, section 1).
+// The look of a picture is held in integers, with the numbers that its shading needs (docs/picture/light.md,
+// section 1).
 #pragma once
 
 #include <algorithm>
@@ -18,12 +19,12 @@ inline constexpr int kLightBits = 12;
 inline constexpr std::int32_t kLight = 1 << kLightBits;
 inline constexpr int kClearBits = 6;
 
-// What a scene file says, times kLight to the nearest integer.
+// Holds the values of a scene file, times kLight to the nearest integer.
 struct Look {
   Color solid{}, liquid{}, ground{}, background{};
-  std::int32_t shininess = 1;  // itself, 1 or more
+  std::int32_t shininess = 1;  // not scaled, 1 or more
   std::int32_t specular = 0, metallic = 0;
-  Color clear{};           // half passes through so much of a way, 2^kClearBits is a cell; all 0: opaque
+  Color clear{};           // half of the light passes this way, 2^kClearBits is a cell; all 0: opaque
   std::int32_t frost = 0;  // share that a surface of clear matter scatters
   bool glow = false;
   std::int32_t glow_cold = 0, glow_hot = 0;  // temperatures, 65536 is the scene's range
@@ -34,13 +35,13 @@ struct Lamp {
   std::int32_t ambient = 0;
 };
 
-// a b / 2^12 to the nearest integer.
+// Returns a b / 2^12 to the nearest integer.
 VOXMELT_RULE std::int32_t times(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(rounded(std::int64_t{a} * b, kLightBits));
 }
 VOXMELT_RULE Color times(Color a, std::int32_t b) { return {times(a[0], b), times(a[1], b), times(a[2], b)}; }
 
-// From a (share 0) to b (share kLight).
+// Mixes from a (share 0) to b (share kLight).
 VOXMELT_RULE std::int32_t mixed(std::int32_t a, std::int32_t b, std::int32_t share) {
   return a + times(b - a, share);
 }
@@ -48,27 +49,27 @@ VOXMELT_RULE Color mixed(Color a, Color b, std::int32_t share) {
   return {mixed(a[0], b[0], share), mixed(a[1], b[1], share), mixed(a[2], b[2], share)};
 }
 
-// 0 below `low`, kLight above `high`, and 3 t^2 - 2 t^3 between.
+// Returns 0 below `low`, kLight above `high`, and 3 t^2 - 2 t^3 between.
 VOXMELT_RULE std::int32_t smooth_light(std::int32_t low, std::int32_t high, std::int32_t at) {
   const std::int64_t t =
       std::clamp<std::int64_t>(floor_divided(std::int64_t{at - low} * kLight, high - low), 0, kLight);
   return static_cast<std::int32_t>((t * t * (3 * kLight - 2 * t)) >> (2 * kLightBits));
 }
 
-// A vector of any length, brought to kLength; 0 stays 0. One bit less than `unit` can take is kept, because
-// the shift rounds down and may add one to a magnitude.
+// Returns a vector of any length, brought to kLength. The vector 0 stays 0. One bit less than `unit` can take
+// is kept, because the shift rounds down and may add one to a magnitude.
 template <class Watch = Silent>
 VOXMELT_RULE Vector unit_of(Vector a, Watch watch = {}) {
   const int bits = bits_of(largest(a));
   return unit(bits > 15 ? a >> (bits - 14) : a, watch);
 }
 
-// How matter reflects. Metals mirror their surroundings and have next to no colour of their own.
+// Describes how matter reflects. Metals mirror their surroundings and have next to no colour of their own.
 struct Material {
   Color diffuse{};         // share of the arriving light that is scattered
   Color mirror{};          // share of the mirrored light, seen from ahead
-  Color highlight{};       // of the lamp
-  std::int32_t gloss = 0;  // how much more is mirrored at grazing angles
+  Color highlight{};       // light of the lamp's highlight
+  std::int32_t gloss = 0;  // additional share that is mirrored at grazing angles
 };
 
 inline constexpr Color kLampColor{4342, 4096, 3768};

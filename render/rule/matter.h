@@ -1,4 +1,4 @@
-// What the matter of a cell is made of, as bytes (docs/picture/light.md, section 3).
+// The matter of a cell is described by bytes (docs/picture/light.md, section 3).
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace voxmelt::picture {
 
 struct Matter {
   std::int32_t liquid = 0;    // share of the liquid in the matter, 0 .. 255
-  std::int32_t heat = 0;      // of glowing liquid, 0 .. 255
+  std::int32_t heat = 0;      // heat of glowing liquid, 0 .. 255
   std::int32_t obstacle = 0;  // share of obstacles in all, 0 .. 255
 };
 
-// From the filtered intensities of a cell. Nothing has no shares.
+// Computes the shares from the filtered intensities of a cell. An empty cell has no shares.
 VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int32_t heat,
                               std::int32_t obstacle, const Look& look) {
   Matter result;
@@ -33,19 +33,19 @@ VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int3
   return result;
 }
 
-// The light that a cell sends out, 0 .. 253, by its filtered liquid and its heat.
+// Returns the light that a cell sends out, 0 .. 253, by its filtered liquid and its heat.
 VOXMELT_RULE std::int32_t emission_of(std::int32_t liquid, std::int32_t heat) {
   return (liquid * ((heat * heat) >> 8)) >> 16;
 }
 
-// Where the bytes of a position are read: outside the outermost centres of cells there is nothing to blend
-// with, so that a face that a side of the grid cuts has the colour of the cells behind it.
+// Returns the position at which bytes are read, along an axis. Outside the outermost centres of cells there
+// is nothing to blend with. So a face cut by a side of the grid has the colour of the cells behind it.
 VOXMELT_RULE std::int64_t among_centers(std::int64_t position, std::int64_t cells) {
   return std::clamp(position, kCell / 2, cells * kCell - kCell / 2);
 }
 
-// Bytes between eight cells, like levels. `cells` is the size of the grid, matter(x, y, z) asks for its
-// cells.
+// Interpolates the bytes between eight cells, like levels. `cells` is the size of the grid, and matter(x, y,
+// z) gives the matter of a cell.
 template <class Cells, class Watch = Silent>
 VOXMELT_RULE Matter matter_at(const Cells& matter, Vector cells, Vector position, Watch watch = {}) {
   const Vector inside{among_centers(position.x, cells.x), among_centers(position.y, cells.y),

@@ -1,4 +1,4 @@
-// Which of matter and ground a ray meets (docs/picture/definition.md, section 9).
+// A ray meets either matter or the ground first (docs/picture/definition.md, section 9).
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace voxmelt::picture {
 
-// Matter that is cut at a side of the grid and the slab's side lie in one plane: there the slab wins, by half
-// a step, or as much where steps are halved.
+// Matter that is cut at a side of the grid lies in one plane with the slab's side. There the slab wins, by
+// half a step, or by the same length if steps are halved.
 inline constexpr std::int64_t kSideFirst = kPlaces / 2;
 
 VOXMELT_RULE bool ground_first(const GroundCrossing& ground, const Crossing& matter, int halvings) {

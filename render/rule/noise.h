@@ -1,4 +1,4 @@
-// Smooth noise on a lattice, in integers (docs/picture/ground.md, section 6).
+// Smooth noise is interpolated on a lattice, in integers (docs/picture/ground.md, section 6).
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 
 namespace voxmelt::picture {
 
-inline constexpr int kNoiseBits = 12;  // fraction bits of a noise, of which one octave is within -1 .. 1
+inline constexpr int kNoiseBits = 12;  // fraction bits of a noise; one octave is within -1 .. 1
 
-// 3 t^2 - 2 t^3, with 0 .. kWeights for 0 .. 1.
+// Returns 3 t^2 - 2 t^3, with 0 .. kWeights for 0 .. 1.
 VOXMELT_RULE std::int32_t smooth(std::int32_t t) { return (t * t * (3 * kWeights - 2 * t)) >> 16; }
 
-// 0 up to `low`, kWeights from `high` on, and smooth between.
+// Returns 0 up to `low`, kWeights from `high` on, and smooth values between.
 VOXMELT_RULE std::int32_t smooth_step(std::int64_t low, std::int64_t high, std::int64_t value) {
   const std::int64_t t = (std::clamp(value, low, high) - low) * kWeights / (high - low);
   return smooth(static_cast<std::int32_t>(t));
 }
 
-// A number of a lattice's point, from -2^12 to 2^12 - 1. `kind` tells lattices apart.
+// Returns the number of a lattice's point, from -2^12 to 2^12 - 1. `kind` tells lattices apart.
 VOXMELT_RULE std::int32_t lattice(Vector point, std::uint32_t kind) {
   std::uint32_t h = static_cast<std::uint32_t>(point.x) * 0x8DA6B343u ^
                     static_cast<std::uint32_t>(point.y) * 0xD8163841u ^
@@ -31,7 +31,7 @@ VOXMELT_RULE std::int32_t lattice(Vector point, std::uint32_t kind) {
   return static_cast<std::int32_t>(h >> (31 - kNoiseBits)) - (1 << kNoiseBits);
 }
 
-// At a position in 2^-20 of the lattice's spacing.
+// Returns the noise at a position in 2^-20 of the lattice's spacing.
 VOXMELT_RULE std::int32_t noise(Vector position, std::uint32_t kind) {
   const auto weight = [](std::int64_t a) {
     return smooth(static_cast<std::int32_t>((a >> (kPositionBits - kWeightBits)) & (kWeights - 1)));
@@ -44,8 +44,8 @@ VOXMELT_RULE std::int32_t noise(Vector position, std::uint32_t kind) {
   return blended(blended(along_x(0, 0), along_x(1, 0), wy), blended(along_x(0, 1), along_x(1, 1), wy), wz);
 }
 
-// Octaves of noise: each is half as strong and half as wide as the one before it. Its axes are exchanged and
-// moved, or the lattices would line up. That of the first has a spacing of 2^spacing cells.
+// Each octave of noise is half as strong and half as wide as the one before it. Its axes are exchanged and
+// moved, or the lattices would line up. The lattice of the first octave has a spacing of 2^spacing cells.
 inline constexpr Vector kOctaveMoved{17 * kCell / 16, 91 * kCell / 16, 501 * kCell / 16};
 
 VOXMELT_RULE std::int32_t layered_noise(Vector position, int spacing, int octaves, std::uint32_t kind) {

@@ -1,4 +1,4 @@
-// The unit normal of the surface (docs/picture/definition.md, section 8).
+// The surface has a unit normal (docs/picture/definition.md, section 8).
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace voxmelt::picture {
 inline constexpr int kNormalBits = 14;  // fraction bits of a normal
 inline constexpr std::int32_t kLength = 1 << kNormalBits;
 
-// floor(sqrt(a)), a < 2^40.
+// Returns floor(sqrt(a)), where a < 2^40.
 VOXMELT_RULE std::int64_t square_root(std::int64_t a) {
   std::int64_t root = 0;
   for (std::int64_t bit = std::int64_t{1} << 19; bit > 0; bit >>= 1)
@@ -22,7 +22,7 @@ VOXMELT_RULE std::int64_t square_root(std::int64_t a) {
   return root;
 }
 
-// 2^15 / sqrt(i / 128) to the nearest integer, i = 128 .. 512.
+// The table holds 2^15 / sqrt(i / 128) to the nearest integer, for i = 128 .. 512.
 inline constexpr int kRootFirst = 128;
 inline constexpr auto kInverseRoot = [] {
   std::array<std::int32_t, 385> table{};
@@ -33,7 +33,7 @@ inline constexpr auto kInverseRoot = [] {
   return table;
 }();
 
-// 2^15 / sqrt(m / 2^30), 2^30 <= m < 2^32, by a straight line between two entries.
+// Returns 2^15 / sqrt(m / 2^30) for 2^30 <= m < 2^32, by a straight line between two entries.
 template <class Watch = Silent>
 VOXMELT_RULE std::int64_t inverse_root(std::int64_t m, Watch watch = {}) {
   const auto i = static_cast<std::size_t>((m >> 23) - kRootFirst);
@@ -46,7 +46,7 @@ VOXMELT_RULE std::int64_t inverse_root(std::int64_t m, Watch watch = {}) {
   return root;
 }
 
-// A vector of components within 2^15, stretched or shrunk to the length 2^14; 0 stays 0.
+// Returns a vector of components within 2^15, stretched or shrunk to the length 2^14. The vector 0 stays 0.
 template <class Watch = Silent>
 VOXMELT_RULE Vector unit(Vector a, Watch watch = {}) {
   watch(Stage::unit, "vector", a);
@@ -63,24 +63,24 @@ VOXMELT_RULE Vector unit(Vector a, Watch watch = {}) {
   return vector;
 }
 
-// Along an axis: the cell in which a position lies, and the weights of it and its neighbours in a quadratic
-// B-spline, whose blur is the same everywhere. Linear interpolation has none at the middle of a cell, which
-// shows as ripples.
+// Holds the cell in which a position lies, along an axis. With it go the weights of the cell and its
+// neighbours in a quadratic B-spline. Its blur is the same everywhere. Linear interpolation has none at the
+// middle of a cell, which shows as ripples.
 struct Spline {
   std::int64_t cell = 0;
-  std::array<std::int32_t, 3> value{}, slope{};  // in 256ths; the slope by the way towards larger positions
+  std::array<std::int32_t, 3> value{}, slope{};  // in 256ths; the slope points towards larger positions
 };
 
 VOXMELT_RULE Spline spline_of(std::int64_t position) {
   const std::int64_t shifted = position + kCell / (2 * kWeights);
   const auto u = static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1));
   const std::int32_t before = kWeights - u,
-                     behind = u;  // 1/2 - f and 1/2 + f, where f is the way from the middle
+                     behind = u;  // 1/2 - f and 1/2 + f, where f is the distance from the middle
   const std::int32_t low = (before * before) >> 9, high = (behind * behind) >> 9;
   return {shifted >> kPositionBits, {low, kWeights - low - high, high}, {-before, before - behind, behind}};
 }
 
-// Three numbers with weights, divided by 2^8 or 2^9.
+// Returns the sum of three numbers with weights, divided by 2^8 or 2^9.
 VOXMELT_RULE std::int32_t splined(const std::array<std::int32_t, 3>& values,
                                   const std::array<std::int32_t, 3>& weight, int bits) {
   return (values[0] * weight[0] + values[1] * weight[1] + values[2] * weight[2] + (1 << (bits - 1))) >> bits;
@@ -93,7 +93,8 @@ VOXMELT_RULE void tell_weights(Watch watch, const char* name, const Spline& spli
                    spline.slope[2]});
 }
 
-// Out of the matter: against the slope of the spline through 27 levels, along x, then y, then z.
+// Returns the normal that points out of the matter. It points against the slope of the spline through 27
+// levels, along x, then y, then z.
 template <class Levels, class Watch = Silent>
 VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position, Watch watch = {}) {
   using Three = std::array<std::int32_t, 3>;

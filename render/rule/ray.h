@@ -1,5 +1,4 @@
-// A ray as a row of samples, and those of them that lie in the grid (docs/picture/definition.md, sections 4
-// and 5).
+// A ray is a row of samples, some of which lie in the grid (docs/picture/definition.md, sections 4 and 5).
 #pragma once
 
 #include <algorithm>
@@ -10,25 +9,26 @@
 
 namespace voxmelt::picture {
 
-// Sample k lies at start + k step, k = 0, 1, 2 ...
+// Sample k of a ray lies at start + k step, for k = 0, 1, 2 ...
 struct Ray {
   Vector start;  // in kCell
   Vector step;   // in kCell; see step_along
   constexpr Vector at(std::int64_t k) const { return start + step * k; }
 };
 
-// The step along `direction`, of which only the ratios count. Its largest component is from a half of
-// 2^-spacing cells to all of that. A component of `direction` must be 2^(20 - spacing) or more.
+// Returns the step along `direction`, of which only the ratios count. The step's largest component is from a
+// half of 2^-spacing cells to all of that. The largest component of `direction` must be 2^(20 - spacing) or
+// more.
 VOXMELT_RULE Vector step_along(Vector direction, int spacing) {
   const int shift = bits_of(largest(direction) - 1) - (kPositionBits - spacing);
   return {rounded(direction.x, shift), rounded(direction.y, shift), rounded(direction.z, shift)};
 }
 
 struct Samples {
-  std::int64_t first = 0, last = -1;  // none when first > last
+  std::int64_t first = 0, last = -1;  // none if first > last
 };
 
-// Which samples lie in the box low <= position < high.
+// Returns which samples lie in the box low <= position < high.
 VOXMELT_RULE Samples samples_in(const Ray& ray, Vector low, Vector high) {
   Samples in{0, std::numeric_limits<std::int64_t>::max()};
   const std::int64_t start[3] = {ray.start.x, ray.start.y, ray.start.z};

@@ -1,7 +1,7 @@
-// The field between the cells (docs/picture/definition.md, section 6).
+// The field is interpolated between the cells (docs/picture/definition.md, section 6).
 //
-// A level is a filtered intensity less half of a full one: 0 or more is matter. The field is the trilinear
-// interpolation of the levels. It never leaves the range of the eight levels around it.
+// A level is a filtered intensity less half of a full one. Matter has a level of 0 or more. The field is the
+// trilinear interpolation of the levels. It never leaves the range of the eight levels around it.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace voxmelt::picture {
 
-inline constexpr std::int32_t kHalfIntensity = 32640;  // of 65280 = 255 x 256, a full cell
+inline constexpr std::int32_t kHalfIntensity = 32640;  // half of 65280 = 255 x 256, a full cell
 inline constexpr std::int32_t kAir =
-    -kHalfIntensity;  // the level of an empty cell, and of all outside the grid
+    -kHalfIntensity;  // level of an empty cell, and of everything outside the grid
 
-// One axis of the pre-filter: the cubic B-spline at a cell, 1 4 1, in 256ths.
+// Applies the pre-filter along one axis. It is the cubic B-spline 1 4 1 at a cell, in 256ths.
 VOXMELT_RULE std::int32_t prefiltered(std::int32_t before, std::int32_t here, std::int32_t after) {
   return (43 * before + 170 * here + 43 * after + 128) >> 8;
 }
@@ -23,7 +23,7 @@ VOXMELT_RULE std::int32_t prefiltered(std::int32_t before, std::int32_t here, st
 inline constexpr int kWeightBits = 8;
 inline constexpr std::int32_t kWeights = 1 << kWeightBits;
 
-// Along an axis: the cell below a position, and the weight of the cell above it, to the nearest 256th.
+// Holds the cell below a position, along an axis, and the weight of the cell above it, to the nearest 256th.
 struct Place {
   std::int64_t cell = 0;
   std::int32_t weight = 0;
@@ -37,7 +37,7 @@ VOXMELT_RULE Place place_of(std::int64_t position) {
           static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1))};
 }
 
-// Says where something between eight cells is looked up.
+// Tells where something between eight cells is looked up.
 template <class Watch>
 VOXMELT_RULE void tell_place(Watch watch, Stage stage, Vector position, Place x, Place y, Place z) {
   watch(stage, "position", position);
@@ -49,7 +49,8 @@ VOXMELT_RULE std::int32_t blended(std::int32_t below, std::int32_t above, std::i
   return (below * (kWeights - weight) + above * weight + kWeights / 2) >> kWeightBits;
 }
 
-// levels(x, y, z) gives the level of any cell, kAir outside the grid.
+// Returns the level of the field at a position. levels(x, y, z) gives the level of any cell, and kAir outside
+// the grid.
 template <class Levels, class Watch = Silent>
 VOXMELT_RULE std::int32_t sample(const Levels& levels, Vector position, Watch watch = {}) {
   const Place x = place_of(position.x), y = place_of(position.y), z = place_of(position.z);
@@ -72,7 +73,7 @@ VOXMELT_RULE std::int32_t sample(const Levels& levels, Vector position, Watch wa
   return level;
 }
 
-// The box outside of which every sample is kAir: low <= position < high.
+// These bound the box low <= position < high. Outside of it every sample is kAir.
 VOXMELT_RULE Vector field_low() {
   const std::int64_t low = -kCell - kToPlace;
   return {low, low, low};

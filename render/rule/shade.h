@@ -1,4 +1,4 @@
-// The colour of a surface (docs/picture/light.md, section 6).
+// A surface gets its colour here (docs/picture/light.md, section 6).
 #pragma once
 
 #include <algorithm>
@@ -14,27 +14,27 @@
 
 namespace voxmelt::picture {
 
-// What the shading of a whole picture shares.
+// Holds the numbers that the shading of a whole picture shares.
 struct Paint {
-  Vector to_light;                   // of kLength
-  Vector to_strip;                   // a second light, opposite of the lamp
-  Color lamp{};                      // its light
+  Vector to_light;                   // direction of the lamp, length kLength
+  Vector to_strip;                   // direction of a second light, opposite of the lamp
+  Color lamp{};                      // light of the lamp
   Color from_below{}, from_above{};  // ambient light
   Material solid, liquid, obstacle;
   bool glow = false;
   bool clear = false;
-  Color losses{};          // of clear matter
-  std::int32_t frost = 0;  // of its surfaces
+  Color losses{};          // losses in clear matter
+  std::int32_t frost = 0;  // share that its surfaces scatter
   std::int32_t lamp_low = 0, lamp_high = 0,
-               strip_low = 0;               // where the mirrored lights begin and end, in kLight
-  Highlight highlight{}, dull_highlight{};  // of matter, and of obstacles
+               strip_low = 0;               // limits of the mirrored lights, in kLight
+  Highlight highlight{}, dull_highlight{};  // for matter, and for obstacles
   Surroundings surroundings{};
   Glow glow_colors{};
   Passing passing{};
 };
 
 inline constexpr std::int32_t kStripHigh = 3973;     // 0.97
-inline constexpr Color kGlowLight{6144, 1966, 369};  // that glowing liquid throws on what is around it
+inline constexpr Color kGlowLight{6144, 1966, 369};  // light that glowing liquid throws on its surroundings
 inline constexpr Color kMirroredLamp{9830, 9626, 9216}, kMirroredStrip{2867, 3072, 3482};
 
 VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
@@ -48,7 +48,7 @@ VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
   paint.liquid = material_of(look.liquid, look.specular, look.metallic, paint.lamp);
   paint.obstacle = material_of(mixed(look.ground, Color{kLight, kLight, kLight}, 492), 123, 0, paint.lamp);
   paint.glow = look.glow;
-  if (look.glow) {  // molten rock is dull, and the table says its colour
+  if (look.glow) {  // molten rock is dull, and its colour is in the table
     paint.solid = material_of(look.solid, times(look.specular, 2867), 0, paint.lamp);
     paint.liquid = material_of(Color{}, times(look.specular, 492), 0, paint.lamp);
   }
@@ -73,7 +73,7 @@ VOXMELT_RULE std::int32_t cosine(Vector a, Vector b) {
   return static_cast<std::int32_t>(dot(a, b) >> kNormalBits);
 }
 
-// Lamp and ambient light that reach a surface, before its own colour; kLight is 1.
+// Returns the lamp's and the ambient light that reach a surface, before its own colour. kLight is 1.
 template <class Watch = Silent>
 VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& light, bool lit_by_glow,
                             Watch watch = {}) {
@@ -101,7 +101,7 @@ VOXMELT_RULE Color arriving(const Paint& paint, Vector normal, const Light& ligh
   return sum;
 }
 
-// What is mirrored from a direction: sky or ground, the lamp and the strip.
+// Returns the light that is mirrored from a direction. It comes from sky or ground, the lamp and the strip.
 template <class Watch = Silent>
 VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction, Watch watch = {}) {
   const auto height =
@@ -132,21 +132,22 @@ VOXMELT_RULE Material mixed(const Material& a, const Material& b, std::int32_t s
           mixed(a.highlight, b.highlight, share), mixed(a.gloss, b.gloss, share)};
 }
 
-// The parts of the light from a surface of matter.
+// Holds the parts of the light from a surface of matter.
 struct Shine {
-  Color mirrored{};           // and the highlight
-  Color scattered{};          // of the light that arrives
-  Color emission{};           // of glowing liquid
-  std::int32_t more = 0;      // of the light at its back, the share that the surface mirrors instead
+  Color mirrored{};           // mirrored light, with the highlight
+  Color scattered{};          // scattered part of the arriving light
+  Color emission{};           // light of glowing liquid
+  std::int32_t more = 0;      // share of the light from behind that the surface mirrors instead
   std::int32_t obstacle = 0;  // the share of obstacles in it
 };
 
-// Obstacles count from a share of 148 to 204, so that what is half a cell deep hides them and no blur shows.
+// Returns how much obstacles count. They begin at a share of 148 and count fully above 204. So matter half a
+// cell deep hides them, and no blur shows.
 VOXMELT_RULE std::int32_t obstacle_share(Matter matter) {
   return std::clamp((matter.obstacle - 148) * 73, 0, kLight);
 }
 
-// What a surface is made of, and what it sends by itself.
+// Holds the material of a surface, and the light that it sends by itself.
 struct Substance {
   Material material;
   Color emission{};
@@ -175,8 +176,8 @@ VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int3
   return substance;
 }
 
-// Towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points out of the matter:
-// they are opposite where the eye looks at a surface from within.
+// Returns the light towards the eye. `to_eye` has kLength. `normal` is on the eye's side, and `out` points
+// out of the matter. They are opposite if the eye looks at a surface from within.
 template <class Watch = Silent>
 VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vector to_eye, const Light& light,
                             Matter matter, Watch watch = {}) {
@@ -230,7 +231,7 @@ VOXMELT_RULE Shine shine_of(const Paint& paint, Vector normal, Vector out, Vecto
   return shine;
 }
 
-// What clear matter scatters at a place in it.
+// Returns the light that clear matter scatters at a place in it.
 template <class Watch = Silent>
 VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter, Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
@@ -256,7 +257,7 @@ VOXMELT_RULE Color matter_color(const Paint& paint, Vector normal, Vector to_eye
   return sum;
 }
 
-// Light from the ground, which is dull.
+// Returns the light from the ground, which is dull.
 template <class Watch = Silent>
 VOXMELT_RULE Color ground_color(const Paint& paint, Vector normal, const Light& light, Color color,
                                 Watch watch = {}) {

@@ -1,4 +1,4 @@
-// The tables of a picture: highlight, surroundings, glow (docs/picture/light.md, section 2).
+// A picture needs tables for the highlight, the surroundings and the glow (docs/picture/light.md, section 2).
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::picture {
 
-// x^exponent, x in 2^15; rounded at every product, from the exponent's highest bit down.
+// Returns x^exponent, with x in 2^15. Every product is rounded, from the exponent's highest bit down.
 VOXMELT_RULE std::int32_t power(std::int32_t x, std::int32_t exponent) {
   std::int64_t result = std::int64_t{1} << 15;
   for (int bit = bits_of(exponent) - 1; bit >= 0; --bit) {
@@ -20,7 +20,8 @@ VOXMELT_RULE std::int32_t power(std::int32_t x, std::int32_t exponent) {
   return static_cast<std::int32_t>(result);
 }
 
-// The highlight by the cosine between normal and halfway vector: entry i is at i / 1024, kLight at most.
+// Holds the highlight by the cosine between normal and halfway vector. Entry i is at i / 1024, and kLight at
+// most.
 using Highlight = std::array<std::uint16_t, 1026>;
 VOXMELT_RULE Highlight highlight_of(std::int32_t exponent) {
   Highlight table{};
@@ -30,14 +31,14 @@ VOXMELT_RULE Highlight highlight_of(std::int32_t exponent) {
   return table;
 }
 
-// Between two entries, for a cosine 0 .. kLength.
+// Interpolates between two entries, for a cosine 0 .. kLength.
 VOXMELT_RULE std::int32_t highlight_at(const Highlight& table, std::int32_t cosine) {
   const auto i = static_cast<std::size_t>(cosine >> 4);
   return table[i] + (((table[i + 1] - table[i]) * (cosine & 15)) >> 4);
 }
 
-// What a mirror would see of a photographer's studio: sky and ground by height. The blur goes from 0 (sharp)
-// to kLight (dull). Red and green have 11 bits and blue 10, and all ones is 1.
+// Holds the view of a mirror in a photographer's studio, which is sky and ground by height. The blur goes
+// from 0 (sharp) to kLight (dull). Red and green have 11 bits and blue 10, and all ones is 1.
 using Surroundings = std::array<std::uint32_t, 2049>;
 
 VOXMELT_RULE std::int32_t blur_of(std::int32_t shininess) {
@@ -65,7 +66,7 @@ VOXMELT_RULE Surroundings surroundings_of(const Look& look) {
   return table;
 }
 
-// Light and crust of glowing liquid by its heat, 0 .. 255.
+// Holds the light and the crust of glowing liquid by its heat, 0 .. 255.
 struct Glow {
   std::array<Color, 256> light, crust;
 };

@@ -1,4 +1,4 @@
-// From linear light to the bytes of a picture (docs/picture/light.md, sections 7 and 8).
+// Linear light becomes the bytes of a picture (docs/picture/light.md, sections 7 and 8).
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace voxmelt::picture {
 
-// Light above 0.7 is pressed together, so that highlights keep their shape: 0.7 + 0.3 (1 - e^-x), with
-// x = (light - 0.7) / 0.3. The powers come about by repeated products.
+// Light above 0.7 is pressed together, so that highlights keep their shape. It becomes 0.7 + 0.3 (1 - e^-x),
+// with x = (light - 0.7) / 0.3. The powers are computed by repeated products.
 inline constexpr std::int32_t kShoulder = 2867, kShoulderRange = 1229, kBrightest = 12287;
 
-using Tone = std::array<std::uint16_t, kBrightest + 2>;  // the last only because packets read two at once
+using Tone = std::array<std::uint16_t, kBrightest + 2>;  // one more, as packets read two at once
 VOXMELT_RULE Tone tone_table() {
   constexpr std::int64_t kStep = 1072868508;  // e^(-1 / 1229) in 2^30
   Tone table{};
@@ -30,7 +30,7 @@ VOXMELT_RULE Tone tone_table() {
   return table;
 }
 
-// The byte of linear light 0 .. kLight in sRGB: how many of these limits it reaches. Limit b is
+// The byte of linear light 0 .. kLight in sRGB is the number of these limits that it reaches. Limit b is
 // kLight s((b + 1/2) / 255), rounded up, where s decodes sRGB.
 inline constexpr std::array<std::int32_t, 255> kByteLimits{
     1,    2,    4,    5,    6,    7,    9,    10,   11,   12,   14,   15,   16,   18,   19,   21,   23,

@@ -1,7 +1,7 @@
-// Where the rule tells its numbers, for whoever wants to see them (render/reference/trace.h).
+// The rule tells its numbers to any watcher that wants to see them (render/reference/trace.h).
 //
 // A watcher is called as watcher(stage, name, value) once a number stands. Names are those of the pages. A
-// value is an integer, an array of them, a Vector, or something fetched.
+// value is an integer, an array of integers, a Vector, or something fetched.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace voxmelt::picture {
 
-// In the order of a ray. Each is a section of the pages.
+// Names the stages in the order of a ray. Each is a section of the pages.
 enum class Stage : std::uint8_t {
-  picture,   // what all rays share: docs/picture/definition.md 3, docs/picture/light.md 1
+  picture,   // numbers that all rays share: docs/picture/definition.md 3, docs/picture/light.md 1
   pixel,     // docs/picture/definition.md 10, docs/picture/light.md 7 and 8
   ray,       // docs/picture/definition.md 4 and 5
   brick,     // 12
@@ -20,7 +20,7 @@ enum class Stage : std::uint8_t {
   crossing,  // 7
   ground,    // docs/picture/ground.md 2 to 4
   met,       // docs/picture/definition.md 9
-  unit,      // 8: how a vector is brought to its length
+  unit,      // 8: a vector is brought to its length
   normal,    // 8
   paint,     // docs/picture/ground.md 5 and 8: the ground's normal and colour
   texture,   // 7 and 8
@@ -33,13 +33,13 @@ enum class Stage : std::uint8_t {
   clear,     // docs/picture/translucent.md
 };
 
-// Nobody listens.
+// Ignores everything, because nobody listens.
 struct Silent {
   template <class Value>
   [[gnu::always_inline]] constexpr void operator()(Stage, const char*, const Value&) const {}
 };
 
-// What a memory gave for a cell.
+// Holds the value that a memory gave for a cell.
 template <class Value>
 struct Fetched {
   Vector cell;
@@ -48,7 +48,7 @@ struct Fetched {
 template <class Value>
 Fetched(Vector, Value) -> Fetched<Value>;
 
-// Cells that tell what is read of them.
+// Wraps cells so that they tell what is read of them.
 template <class Cells, class Watch>
 struct Watched {
   const Cells& cells;

@@ -23,10 +23,12 @@
 namespace voxmelt::visibility {
 namespace {
 
-// In cells. Floats of a grid of 4096 cells, and what the tree makes of them, err by less than 0.001.
+// The margin is in cells. Floats of a grid of 4096 cells, and the tree's results from them, err by less than
+// 0.001.
 constexpr float kMargin = 0.02f;
 
-// Denormal numbers make Embree slow. Every thread that casts sets this, and gives back what was.
+// Flushes denormal numbers, which make Embree slow. Every thread that casts sets this, and later restores the
+// former state.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
@@ -43,22 +45,22 @@ class FlushDenormals {
   unsigned before_ = 0;
 };
 
-// Many rays end close to where they begin. So each walks through a few bricks or gaps, before the tree looks
-// for the next ones.
+// Many rays end close to their start. So each walks through a few bricks or gaps, before the tree looks for
+// the next ones.
 constexpr int kOnFoot = 6;
 
-// A ray that has met nothing on foot.
+// Holds a ray that has met nothing on foot.
 struct Traveller {
   Traveller(const Cell& cell, const Course& course) : walk(cell, course) {}
   BrickWalk<std::int64_t> walk;
   std::size_t ray = 0;
 };
 
-// What the callback needs of the rays of a packet. Embree hands the context on, so it comes first.
+// Holds what the callback needs of the rays of a packet. Embree hands the context on, so it comes first.
 struct Errand {
   RTCIntersectContext context;
   const Opaque* opaque;
-  const Traveller* travellers;  // by the ids of rays
+  const Traveller* travellers;  // indexed by the ids of rays
   std::span<Fate> fates;
 };
 
@@ -67,7 +69,8 @@ struct Prepared {
   float begin, end;
 };
 
-// In cells, and scaled so that the longest component of the direction is 1. The ray goes on from `cell`.
+// Prepares a ray in cells. It is scaled so that the longest component of the direction is 1. The ray goes on
+// from `cell`.
 Prepared prepare_ray(const Ray& ray, const Course& course, const Cell& cell) {
   const std::size_t main = course.length[0] >= course.length[1]
                                ? (course.length[0] >= course.length[2] ? 0 : 2)
@@ -116,7 +119,7 @@ struct EmbreeCaster::Scene {
   RTCGeometry geometry = nullptr;
   const Opaque* opaque = nullptr;
   Gaps gaps;
-  std::vector<std::uint32_t> bricks;  // of each box, ascending
+  std::vector<std::uint32_t> bricks;  // brick of each box, ascending
 };
 
 namespace {
@@ -130,13 +133,14 @@ Cell first_cell(const Opaque& opaque, std::size_t brick) {
 
 }  // namespace
 
-// Around the opaque cells of a brick. One that holds nothing any more is a point.
+// Gives Embree the box around the opaque cells of a brick. A box that is empty by now is a point.
 void EmbreeCaster::Scene::bounds(const RTCBoundsFunctionArguments* call) {
   const auto& self = *static_cast<const Scene*>(call->geometryUserPtr);
   const std::size_t brick = self.bricks[call->primID];
   const Cell first = first_cell(*self.opaque, brick);
   const std::uint8_t* rows = self.opaque->rows(brick);
-  // Of all rows: which x are taken, which rows of a slice, which slices; a bit or a byte each.
+  // `slice` collects the bits of all slices, a byte for each row. `slices` has a bit for each slice that
+  // holds something.
   std::uint64_t slice = 0, slices = 0;
   for (unsigned z = 0; z < 8; ++z) {
     std::uint64_t word = 0;
@@ -187,8 +191,8 @@ void EmbreeCaster::Scene::occluded(const RTCOccludedFunctionNArguments* call) {
   }
 }
 
-// A ray comes to no brick that is full, and has 26 full neighbours, without having met an opaque cell. So
-// such a brick needs no box.
+// Returns the bricks that need a box. A full brick with 26 full neighbours needs none, because a ray meets an
+// opaque cell before it gets there.
 std::vector<std::uint32_t> EmbreeCaster::Scene::shell(const Opaque& opaque) {
   const state::Grid& g = opaque.bricks();
   std::vector<std::uint8_t> buried(g.cells()), before;
@@ -216,8 +220,8 @@ void EmbreeCaster::Scene::build(const Opaque& now, std::vector<std::uint32_t> bo
   opaque = &now;
   bricks = std::move(boxes);
   scene = rtcNewScene(device);
-  // A refit takes as long as a build of good quality, and the rays are as fast in a tree that is built in
-  // less than half of the time.
+  // A refit takes as long as a build of good quality. A tree of low quality is built in less than half of the
+  // time, and the rays are as fast in it.
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
   geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(bricks.size()));
@@ -245,7 +249,7 @@ void EmbreeCaster::prepare(const Opaque& opaque, const Opaque::News& news) {
   if (!other && !news.appeared && !news.vanished) return;
   scene_->gaps.update(opaque, news);
   std::vector<std::uint32_t> boxes = Scene::shell(opaque);
-  // Boxes that are no longer needed shrink to points. Those that are new ask for another tree.
+  // Boxes that are no longer needed shrink to points. New boxes ask for another tree.
   if (other || news.appeared ||
       !std::includes(scene_->bricks.begin(), scene_->bricks.end(), boxes.begin(), boxes.end()))
     scene_->build(opaque, std::move(boxes));
@@ -276,7 +280,7 @@ void set_ray(RTCRayN* packet, unsigned n, unsigned lane, const Prepared& ray, un
   RTCRayN_flags(packet, n, lane) = 0;
 }
 
-// Collects rays, and hands them to Embree when it is full. Lanes that are not filled are not valid.
+// Collects rays, and hands them to Embree once it is full. Lanes that are not filled are not valid.
 template <unsigned kLanes, class Rays, class Occluded>
 class Travel {
  public:
@@ -319,7 +323,7 @@ void cast_by(const Opaque& opaque, const Gaps& gaps, std::span<const Ray> rays, 
     fates[i] = kSees;
     if (!opaque.contains(ray.cell)) continue;
     const Course course(ray);
-    if (!course.narrow()) {  // a source as far as that is rare
+    if (!course.narrow()) {  // so distant a source is rare
       fates[i] = two_level_fate(opaque, gaps, ray);
       continue;
     }

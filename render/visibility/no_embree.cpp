@@ -1,4 +1,4 @@
-// In place of embree_caster.cpp, where this build has no Embree.
+// The file stands in for embree_caster.cpp in a build without Embree.
 #include <span>
 #include <stdexcept>
 
