@@ -1,4 +1,4 @@
-// voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
+// The command `voxmelt run` does the main job: steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -34,7 +34,7 @@ struct RunOptions {
   std::optional<std::string> size;
   std::optional<std::string> checkpoint_every;
   std::string resume;           // folder; empty for a run from the scene's beginning
-  std::set<std::string> given;  // options on the command line, of those that a resumed run may change
+  std::set<std::string> given;  // of the options that a resumed run may change, those given
 };
 
 std::string by_chance() {
@@ -66,7 +66,7 @@ PreparedRun prepare(const RunOptions& options) {
   return run;
 }
 
-// Nothing where the run is complete already.
+// Returns nothing if the run is complete already.
 std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   std::optional<Resumption> found = find_run(options.resume);
   if (!found) return std::nullopt;
