@@ -1,4 +1,4 @@
-// What is written of a front: every number can be read back, and the page stands alone.
+// The reports of a front are tested: every number can be read back, and the page stands alone.
 #include "report/accuracy/front.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,8 @@ TEST(FrontReport, PageStandsAloneAndSaysWhichSetting) {
   EXPECT_EQ(count(page, "prefers-color-scheme: dark"), 1);
   EXPECT_EQ(count(page, "v &lt;1&gt;"), 1);
   EXPECT_EQ(count(page, "<svg"), 3);
-  EXPECT_EQ(count(page, "<title>"), 1 + 3 + 1 + 1);  // the page's, and a dot for each point of a picture
+  EXPECT_EQ(count(page, "<title>"),
+            1 + 3 + 1 + 1);  // the page has one, and each point of a picture has a dot
   EXPECT_EQ(count(page, "class=\"ring\""), 1);
   EXPECT_EQ(count(page, "class=\"label\""), 2 * 3);  // every axis has its name
   EXPECT_EQ(
