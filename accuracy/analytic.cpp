@@ -23,9 +23,9 @@ double bisect(double low, double high, const Function& function) {
 // Gives the integral of (1 - s^2)^(1/3) over 0..1.
 double plane_profile_area() { return std::sqrt(kPi) / 2 * std::tgamma(4.0 / 3) / std::tgamma(11.0 / 6); }
 
-// The struct holds Huppert's profile of a current of constant flux: h ~ phi(y), y = r / front, where
+// The profile is Huppert's for a current of constant flux. It is h ~ phi(y) with y = r / front, where
 //   (y phi^3 phi')' + y^2 phi' / 2 = 0,   phi -> (3/2 (1 - y))^(1/3) at the front.
-// With M(y) the integral of s phi over s = y..1, a first integral is y phi^3 phi' = -M - y^2 phi / 2. It is
+// If M(y) is the integral of s phi over s = y..1, a first integral is y phi^3 phi' = -M - y^2 phi / 2. It is
 // regular from the front inwards in s = -log y, for psi = phi^3:  dpsi/ds = 3 M / phi + 3 y^2 / 2,  dM/ds =
 // y^2 phi.
 struct FedProfile {

@@ -72,7 +72,7 @@ struct Case {
   std::string name;    // name for --case
   std::string family;  // a heading of the report
   std::string title;   // one line of `voxmelt list cases`
-  std::string about;   // what is run and what it is compared with
+  std::string about;   // the run, and the answer that it is compared with
   Outcome (*measure)(const Conditions&);
 };
 

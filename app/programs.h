@@ -9,7 +9,7 @@ namespace voxmelt::app {
 
 struct Elsewhere {
   std::string_view command, program;
-  std::string_view description;  // of the command, in --help of voxmelt
+  std::string_view description;  // the command's text in --help of voxmelt
 };
 
 inline constexpr std::array kElsewhere{

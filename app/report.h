@@ -1,4 +1,5 @@
-// report.json says what was run, what it left, and if the books balance. It suffices to repeat the run.
+// The file report.json says what was run, what it left, and if the books balance. It suffices to repeat the
+// run.
 #pragma once
 
 #include <filesystem>

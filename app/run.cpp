@@ -34,7 +34,7 @@ struct RunOptions {
   std::optional<std::string> size;
   std::optional<std::string> checkpoint_every;
   std::string resume;           // folder; empty for a run from the scene's beginning
-  std::set<std::string> given;  // of the options that a resumed run may change, those given
+  std::set<std::string> given;  // given options, among those that a resumed run may change
 };
 
 std::string by_chance() {

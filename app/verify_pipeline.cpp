@@ -1,4 +1,4 @@
-// The pipeline's part of `voxmelt verify` simulates, prints, and writes the results. 26d
+// The pipeline's part of `voxmelt verify` simulates, prints, and writes the results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,6 @@
 
 namespace voxmelt::app {
 
-// What came of the planted fault.
 void print_plant(const hwmodel::VerifyReport& report) {
   const auto& at = *report.strike;
   print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,

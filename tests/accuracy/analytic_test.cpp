@@ -106,9 +106,9 @@ TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
   EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
 }
 
-// By hand, 600 cells in shafts of 60 columns, with a roof over 60 more at height 4, give 60 h + 60 (4 + o) =
-// 600 and h - 4 = 8 o, so h = 52 / 9. Then 243 cells in 18 columns, 9 of them roofed at 3, give 18 h + 9 (3 +
-// o) = 243, so h = 195 / 17.
+// By hand, 600 cells in shafts of 60 columns have a roof over 60 more at height 4. So 60 h + 60 (4 + o) = 600
+// and h - 4 = 8 o, which gives h = 52 / 9. Then 243 cells in 18 columns, 9 of them roofed at 3, give 18 h + 9
+// (3 + o) = 243, so h = 195 / 17.
 TEST(Analytic, ConduitLevel) {
   EXPECT_NEAR(conduit_level(600, 60, 60, 4, 8), 52.0 / 9, 1e-12);
   EXPECT_NEAR(conduit_level(243, 18, 9, 3, 8), 195.0 / 17, 1e-12);

@@ -46,8 +46,8 @@ TEST(HardCase, StefanNumbersOfAHundredthAndOfTen) {
 }
 
 // Hot and cold cells alternate. In a step their difference is multiplied by 1 - 12 gamma / pi with 6 and 18
-// neighbours (edges join cells of one colour), and by 1 - 16 gamma / (3 pi) besides with 26. So it is halved
-// at gamma pi / 8, it stays at pi / 6, and corners leave a ninth of it there.
+// neighbours, as edges join cells of one colour. With 26 it is also multiplied by 1 - 16 gamma / (3 pi). So
+// it is halved at gamma pi / 8, it stays at pi / 6, and corners leave a ninth of it there.
 TEST(HardCase, ACheckerboardOfHeatIsDamped) {
   struct {
     int neighbours, face;  // 65536 gamma / pi

@@ -16,7 +16,7 @@ double of_rectangle(double a, double b, double d) {
   return 4 * std::asin(a * b / std::sqrt((a * a + d * d) * (b * b + d * d)));
 }
 
-// Of a block of 8 x 4 x 8 cells only the nearest face counts, by its own distance.
+// A block has 8 x 4 x 8 cells. Only its nearest face counts, by its own distance.
 TEST(Silhouette, BlockFromTheFront) {
   state::Volume v(state::Grid{16, 16, 16});
   for (int z = 4; z < 12; ++z)
