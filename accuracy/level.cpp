@@ -35,9 +35,8 @@ double height(const state::Volume& v, const Shaft& s, int bottom) {
 struct Vessels {
   Shaft left, right;  // a tunnel joins them, as wide as they are, with a ceiling
   int bottom;
-  int ceiling;  // in cells above the bottom
-  std::optional<double>
-      incompressible_gate;  // bounds the mean height's error against an incompressible liquid's
+  int ceiling;                                // in cells above the bottom
+  std::optional<double> incompressible_gate;  // for the mean height against an incompressible liquid's
 
   static double area(const Shaft& s) { return (s.x1 - s.x0) * (s.z1 - s.z0); }
   double level(double volume, double stiffness) const {
@@ -75,8 +74,7 @@ Outcome follow(Trial& trial, const Vessels& vessels, const std::vector<std::uint
     row("left", "height, cells", l, level, 0.1);
     row("right", "height, cells", r, level, 0.1);
     row("left less right", "difference of the heights, cells", l - r, 0, 0.1);
-    row("mean of both", "height, cells", mean, level,
-        0.01);  // the mean is free of the slope that heads may keep
+    row("mean of both", "height, cells", mean, level, 0.01);  // without the slope that heads may keep
     row("mean of both", "height, cells, beside an incompressible liquid's", mean, incompressible,
         vessels.incompressible_gate);
     outcome.rows.back().note =

@@ -50,8 +50,7 @@ void end_when_late() {
 
 void handle(void (*handler)(int)) {
   for (const int signal : kSignals)
-    if (std::signal(signal, handler) == SIG_IGN)
-      std::signal(signal, SIG_IGN);  // as under nohup, an ignored signal stays ignored
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);  // stays so under nohup
 }
 
 }  // namespace

@@ -26,9 +26,8 @@ std::string who_computes(const Common& common) {
 std::string again(const VerifyCommand& command, const std::string& scene,
                   const hwmodel::VerifyReport& report) {
   const std::uint32_t step = report.mismatch->step;
-  std::string text =
-      fmt::format("voxmelt verify {} --steps {}", shell_word(scene),
-                  report.pass_end - report.replay_step);  // whole passes, which have the same cycles
+  std::string text = fmt::format("voxmelt verify {} --steps {}", shell_word(scene),
+                                 report.pass_end - report.replay_step);  // whole passes: the same cycles
   if (!command.hw.empty()) text += " --hw " + shell_word(command.hw);
   for (const std::string& set : command.hw_sets) text += " --set " + shell_word(set);
   for (const std::string& set : command.common.sets)  // the replay has its own start

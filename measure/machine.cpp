@@ -35,7 +35,7 @@ double best_rate(int threads, const Rounds& trials, const std::function<double(i
     std::barrier ready(threads);
     std::vector<double> rates(static_cast<std::size_t>(threads));
     const auto work = [&](int thread) {
-      piece(thread);  // warms the caches
+      piece(thread);  // warms up
       ready.arrive_and_wait();
       const Clock::time_point start = Clock::now();
       double done = 0, seconds = 0;

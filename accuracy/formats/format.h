@@ -55,8 +55,7 @@ struct Whole {
   }
   // Converts an irradiance, which counts in 1/16 unit of the 16-bit state.
   static Wide radiated(std::int64_t irradiance, std::int64_t dither) {
-    constexpr int down =
-        20 - kBits;  // from a sixteenth of such a unit to a unit of this format, below 0 for 32 bits
+    constexpr int down = 20 - kBits;  // bits from that unit to this format's, below 0 for 32 bits
     if constexpr (down <= 0)
       return irradiance << -down;
     else
@@ -71,9 +70,7 @@ struct Whole {
     const auto whole = static_cast<Product>(amount);
     return static_cast<Wide>((content + ((whole * static_cast<Product>(offset(dither))) >> 16)) / whole);
   }
-  static std::size_t band(Wide heat) {
-    return static_cast<std::size_t>(heat >> (kBits - 5));
-  }  // one of 32 bands
+  static std::size_t band(Wide heat) { return static_cast<std::size_t>(heat >> (kBits - 5)); }  // 0..31
 };
 
 template <class Number>

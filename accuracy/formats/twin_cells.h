@@ -14,13 +14,7 @@
 
 namespace voxmelt::accuracy::front {
 
-enum Kind : std::uint8_t {
-  kAir = 0,
-  kSolid = 1,
-  kLiquid = 2,
-  kInert = 4,
-  kFresh = 8
-};  // fresh: melted in this step
+enum Kind : std::uint8_t { kAir = 0, kSolid = 1, kLiquid = 2, kInert = 4, kFresh = 8 };  // fresh: melted now
 
 // Keeps, for each row (y, z), the cells x that may matter: those of matter and of its neighbours.
 class Rows {

@@ -38,8 +38,7 @@ struct Subject {
   // 1. In a longer one they stay: a cell cannot give more than it has.
   std::vector<std::string> sets(const Setting& setting) const;
   Scale scale(const Setting& setting) const;
-  std::uint32_t steps_to(const Setting& setting,
-                         std::uint32_t sample_index) const;  // `sample_index` counts from 1
+  std::uint32_t steps_to(const Setting& setting, std::uint32_t sample_index) const;  // counts from 1
 };
 
 // Lists cello, goblet, lava and bunny, and the same by the viscous law.

@@ -12,8 +12,7 @@ using Json = nlohmann::ordered_json;
 
 extern const char* const kStyle;  // beside the style sheet of all pages
 
-std::string number(const Json& value,
-                   int digits = 2);  // "854,688", "0.93"; reals have `digits` digits behind the point
+std::string number(const Json& value, int digits = 2);  // "854,688", "0.93"; digits behind the point of reals
 
 std::string tally(const std::string& number, const std::string& what, const char* css = "");
 // Makes a card. `title` and `about` are HTML.
@@ -48,7 +47,7 @@ std::string histogram(const Json& channel);
 // Holds work a cycle against the bytes that a memory moves in a cycle, and the bounds.
 struct Roof {
   std::string caption, unit;  // counted unit: "cell-steps"
-  Json compute, per_byte;     // work at most in a cycle, and with the bytes that it takes
+  Json compute, per_byte;     // most work in a cycle; work per byte that moves
   struct Bound {
     Json value;
     std::string name;

@@ -26,10 +26,9 @@ struct Look {
 
 struct Kind {
   const char* name;
-  bool at, radius, direction;                // numbers that its keys have
-  std::optional<Cast> (*cast)(const Look&);  // nothing if the ray is not cast
-  Sum (*received)(const Key& now, const Point& centre, Int N,
-                  Int R);  // irradiance that a cell receives, for N > 0
+  bool at, radius, direction;                                          // numbers that its keys have
+  std::optional<Cast> (*cast)(const Look&);                            // nothing if the ray is not cast
+  Sum (*received)(const Key& now, const Point& centre, Int N, Int R);  // irradiance of a cell, for N > 0
 };
 
 const Kind* kind_named(const std::string& name);  // null for none

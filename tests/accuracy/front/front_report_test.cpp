@@ -99,8 +99,7 @@ TEST(FrontReport, PageStandsAloneAndSaysWhichSetting) {
   EXPECT_EQ(count(page, "prefers-color-scheme: dark"), 1);
   EXPECT_EQ(count(page, "v &lt;1&gt;"), 1);
   EXPECT_EQ(count(page, "<svg"), 3);
-  EXPECT_EQ(count(page, "<title>"),
-            1 + 3 + 1 + 1);  // the page has one, and each point of a picture has a dot
+  EXPECT_EQ(count(page, "<title>"), 1 + 3 + 1 + 1);  // the page's, and a dot for each point of a picture
   EXPECT_EQ(count(page, "class=\"ring\""), 1);
   EXPECT_EQ(count(page, "class=\"label\""), 2 * 3);  // every axis has its name
   EXPECT_EQ(
