@@ -1,4 +1,4 @@
-// The command `voxmelt accuracy --front` sets speed against error.
+// The command `voxmelt accuracy --front` compares the speed of settings with their error.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Compares both scenes with all that the rules depend on.
+// Tells if both scenes agree in all that the rules depend on.
 bool is_same(const scene::Scene& a, const scene::Scene& b) {
   const auto text = [](const scene::Scene& scene) {
     return io::parameters_json(scene.parameters, scene.initial.grid, scene.first_step);

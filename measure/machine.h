@@ -1,4 +1,4 @@
-// The abilities of this machine are measured in the same run as everything that is compared with them.
+// The rates of this machine are measured in the same run as everything that is compared with them.
 //
 // Rates are the best of many short trials, as times are minima. A roof that a busy machine lowered would
 // flatter the program.
@@ -36,7 +36,7 @@ struct LaneRates {
 
 class Machine {
  public:
-  // `trials` sets the number of trials of each rate, a millisecond each.
+  // The argument `trials` sets the number of trials of each rate, a millisecond each.
   explicit Machine(const Rounds& trials = {.fewest = 5, .seconds = 0.2}) : trials_(trials) {}
 
   // Measures `threads` threads that share `footprint` bytes, rounded to a power of two from 256 KiB to 512

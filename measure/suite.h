@@ -106,7 +106,7 @@ struct Plan {
 
 class Suite {
  public:
-  // `tell` is called with each workload's cases as soon as they are known.
+  // The function `tell` is called with each workload's cases as soon as they are known.
   using Tell = std::function<void(const Workload&, const Result&, const std::vector<Case>&)>;
   Suite(Plan plan, Tell tell);
 

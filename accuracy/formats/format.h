@@ -55,7 +55,7 @@ struct Whole {
   }
   // Converts an irradiance, which counts in 1/16 unit of the 16-bit state.
   static Wide radiated(std::int64_t irradiance, std::int64_t dither) {
-    constexpr int down = 20 - kBits;  // bits from that unit to this format's, below 0 for 32 bits
+    constexpr int down = 20 - kBits;  // right shift from that unit to this format's, below 0 for 32 bits
     if constexpr (down <= 0)
       return irradiance << -down;
     else

@@ -11,7 +11,7 @@ namespace voxmelt::baseline {
 
 template <class Real>
 struct Numbers {
-  // Heat
+  // Heat takes these numbers.
   bool heat = false;
   int neighbours = 6;                   // neighbours of Eq. 1
   Real face = 0, edge = 0, corner = 0;  // gamma / (pi l^2)
@@ -21,10 +21,10 @@ struct Numbers {
   std::vector<Real> air_temperature;    // one per y
   Real melting_point = 0, reheat = 0;
 
-  // Gravity
+  // Gravity takes these numbers.
   Real factor = 1, wall_factor = 1, minimum = 0, hang = 0, beta = 1;
 
-  // Spreading
+  // Spreading takes these numbers.
   int directions = 8;
   std::array<std::array<Real, 8>, 256> factors{};  // [pattern][direction]: factor1, 2, ... of Eqs. 11-20
   Real share = 0;                                  // share of a face neighbour, 0 if the factors are a table
