@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The root of an increasing function that is below 0 at `low`.
+// Finds the root of an increasing function that is below 0 at `low`.
 template <class Function>
 double bisect(double low, double high, const Function& function) {
   for (int i = 0; i < 200; ++i) {
@@ -20,17 +20,17 @@ double bisect(double low, double high, const Function& function) {
   return (low + high) / 2;
 }
 
-// Integral of (1 - s^2)^(1/3) over 0..1.
+// Gives the integral of (1 - s^2)^(1/3) over 0..1.
 double plane_profile_area() { return std::sqrt(kPi) / 2 * std::tgamma(4.0 / 3) / std::tgamma(11.0 / 6); }
 
-// Huppert's profile of a current of constant flux: h ~ phi(y), y = r / front, where
+// The profile is Huppert's for a current of constant flux. It is h ~ phi(y) with y = r / front, where
 //   (y phi^3 phi')' + y^2 phi' / 2 = 0,   phi -> (3/2 (1 - y))^(1/3) at the front.
-// With M(y) the integral of s phi over s = y..1, a first integral is y phi^3 phi' = -M - y^2 phi / 2. It is
+// If M(y) is the integral of s phi over s = y..1, a first integral is y phi^3 phi' = -M - y^2 phi / 2. It is
 // regular from the front inwards in s = -log y, for psi = phi^3:  dpsi/ds = 3 M / phi + 3 y^2 / 2,  dM/ds =
 // y^2 phi.
 struct FedProfile {
   static constexpr double kStep = 1e-3,
-                          kEnd = 12;  // of s; within exp(-12) of the front there is no volume left
+                          kEnd = 12;  // end of s; within exp(-12) of the front there is no volume left
 
   double front = 0;       // (2 pi M(0))^(-3/8)
   double rms_radius = 0;  // root of the mean of y^2
@@ -57,7 +57,7 @@ struct FedProfile {
   }
   FedProfile() {
     double psi = 0, volume = 0, second = 0;
-    for (double s = 0; s < kEnd; s += kStep) {  // Runge and Kutta
+    for (double s = 0; s < kEnd; s += kStep) {  // Runge-Kutta, fourth order
       const Rates a = rates(s, psi, volume);
       const auto half = [&](const Rates& r) {
         return rates(s + kStep / 2, psi + kStep / 2 * r.psi, volume + kStep / 2 * r.volume);
@@ -139,7 +139,7 @@ Dam dam_of_depth(double kappa, double depth, double front) {
 
 std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, double time,
                                      int parts_per_cell) {
-  // Implicit steps, linearised: the conductance between two parts is that of the state before.
+  // The steps are implicit and linearised: the conductance between two parts is that of the state before.
   const std::size_t n = depth.size();
   std::vector<double> g(n), c(n), d(n);
   for (double done = 0, step = 0; done < time; done += step) {
@@ -149,7 +149,7 @@ std::vector<double> lubrication_flow(double kappa, std::vector<double> depth, do
       const double a = depth[i], b = depth[i + 1];
       g[i] = scale * (a + b) * (a * a + b * b) / 4;  // the mean of h^3 over a linear profile
     }
-    // Thomas's algorithm for (1 + g[i - 1] + g[i]) h[i] - g[i - 1] h[i - 1] - g[i] h[i + 1] = old h[i].
+    // Thomas's algorithm solves (1 + g[i - 1] + g[i]) h[i] - g[i - 1] h[i - 1] - g[i] h[i + 1] = old h[i].
     for (std::size_t i = 0; i < n; ++i) {
       const double left = i > 0 ? g[i - 1] : 0, right = i + 1 < n ? g[i] : 0;
       const double pivot = 1 + left + right - (i > 0 ? left * c[i - 1] : 0);
@@ -177,7 +177,7 @@ double nusselt(double slope) {
   return slope / (stretch * stretch);
 }
 
-// Of open_area h + roofed_area (ceiling + (h - ceiling) / stiffness) = volume.
+// Solves open_area h + roofed_area (ceiling + (h - ceiling) / stiffness) = volume for h.
 double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness) {
   const double squeezed = roofed_area / stiffness;
   return (volume - ceiling * (roofed_area - squeezed)) / (open_area + squeezed);

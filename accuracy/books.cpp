@@ -1,4 +1,5 @@
-// Arithmetic: what must be exact. Mass, energy and heat balance; every implementation gives the same bits.
+// These cases check the arithmetic that must be exact. Mass, energy and heat balance, and every
+// implementation gives the same bits.
 #include "accuracy/books.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// Scenes in which every rule acts.
+// In these scenes every rule acts.
 constexpr const char* kScenes[] = {"../proving_ground", "../proving_ground_viscous"};
 const char* law_of(const std::string& scene) {
   return scene.ends_with("_viscous") ? "viscous law" : "paper law";
@@ -83,10 +84,10 @@ Outcome measure_implementations(const Conditions& conditions) {
   return outcome;
 }
 
-// Three still pools of 3 x 3 columns, kappa 0.2. The limit cuts 2/9 kappa d^2 at 1/(5 (d + 1)), d + 1 being
-// whole, and at an eighth of that where a roof presses. So it cuts the pool of depth 4 (36 cells) and the one
-// that a roof at 1 squeezes to 5/4 (9 cells of 5/4), but not the one of depth 1/2 (9 cells of 1/2). The first
-// one needs 18 sub-steps: 2/9 x 0.2 x 16 x 25 = 17.8.
+// The scene has three still pools of 3 x 3 columns at kappa 0.2. The limit cuts 2/9 kappa d^2 at 1/(5 (d +
+// 1)) with d + 1 whole, and at an eighth of that where a roof presses. So it cuts the pool of depth 4 (36
+// cells) and the one that a roof at 1 squeezes to 5/4 (9 cells of 5/4). It does not cut the one of depth 1/2
+// (9 cells of 1/2). The first one needs 18 sub-steps: 2/9 x 0.2 x 16 x 25 = 17.8.
 Outcome measure_limit(const Conditions& conditions) {
   constexpr std::uint32_t kSteps = 10;
   Outcome outcome;

@@ -1,4 +1,4 @@
-// A case: one question to the automaton that mathematics has answered, and what was found.
+// A case puts one question to the automaton that mathematics has answered, and holds what was found.
 #pragma once
 
 #include <cmath>
@@ -11,35 +11,36 @@
 
 namespace voxmelt::accuracy {
 
-// How the cases are run. No result but the speeds depends on `implementation` and `threads`.
+// Says how the cases are run. No result but the speeds depends on `implementation` and `threads`.
 struct Conditions {
   const step::Implementation* implementation = nullptr;
   int threads = 1;
   bool quick = false;             // small grids and few settings: all cases in less than a minute
-  std::vector<std::string> sets;  // --set, applied to the scene of every run after the case's own
+  std::vector<std::string> sets;  // overrides as of --set, applied to every run's scene after the case's own
   std::filesystem::path scenes;   // folder with the cases' scenes
   bool baseline = true;           // also time the plain baseline
-  int threads_always = 0;         // more than 0: this number of threads, on small grids too
+  int threads_always = 0;         // if more than 0, this number of threads, on small grids too
 };
 
 struct Speed {
   double cells_per_second = 0;                        // cells of the grid x steps, over seconds of the steps
-  std::optional<double> baseline_cells_per_second{};  // of the paper's program on the same start
+  std::optional<double> baseline_cells_per_second{};  // the paper's program on the same start
   int state_bits = 0;                                 // per cell, as the run's law needs them
 };
 
 enum class Measure { relative, absolute };
 
-// One number beside its exact value. The gate is an upper bound of |error|. Without one the row only reports.
+// A row holds one number beside its exact value. The gate is an upper bound of |error|. Without one the row
+// only reports.
 struct Row {
   std::string setting{}, quantity{};
   double value = 0, exact = 0;
   Measure measure = Measure::relative;
   std::optional<double> gate{};
-  std::string note{};  // a sentence, where the number needs one
+  std::string note{};  // a sentence, if the number needs one
   Speed speed{};
 
-  // value / exact - 1, or value - exact.
+  // Gives value / exact - 1, or value - exact.
   double error() const { return measure == Measure::relative ? value / exact - 1 : value - exact; }
   bool passed() const { return !gate || std::abs(error()) <= *gate; }  // false for a NaN
 };
@@ -51,7 +52,7 @@ struct Point {
 struct Curve {
   std::string name{};
   std::vector<Point> points{};
-  bool exact = false;  // drawn as a line; what was measured, as dots
+  bool exact = false;  // exact curves are drawn as lines, measured ones as dots
   bool joined = true;  // few dots are joined by a thin line
 };
 
@@ -59,7 +60,7 @@ struct Chart {
   std::string title{}, x_label{}, y_label{};
   std::vector<Curve> curves{};
   bool logarithmic_x = false, logarithmic_y = false;
-  std::optional<double> band{};  // of an error's gate: drawn from -band to band
+  std::optional<double> band{};  // the gate of an error, drawn from -band to band
 };
 
 struct Outcome {
@@ -68,14 +69,14 @@ struct Outcome {
 };
 
 struct Case {
-  std::string name;    // of --case
+  std::string name;    // name for --case
   std::string family;  // a heading of the report
   std::string title;   // one line of `voxmelt list cases`
-  std::string about;   // what is run, what is compared with what
+  std::string about;   // the run, and the answer that it is compared with
   Outcome (*measure)(const Conditions&);
 };
 
-// All cases, in the order of the report.
+// Lists all cases in the order of the report.
 const std::vector<Case>& all_cases();
 
 }  // namespace voxmelt::accuracy

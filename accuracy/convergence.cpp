@@ -1,4 +1,4 @@
-// A whole scene on finer grids and with shorter steps: its results should converge.
+// These cases run a whole scene on finer grids and with shorter steps: its results should converge.
 #include "accuracy/convergence.h"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// A scene with cells `finer` times as small and steps `shorter` times as short. Per step and cell,
-// diffusivity goes with dt / dx^2, exchange with dt / dx, kappa with dt dx.
+// The scale of a scene makes cells `finer` times as small and steps `shorter` times as short. Per step and
+// cell, diffusivity goes with dt / dx^2, exchange with dt / dx, kappa with dt dx.
 struct Scale {
   int finer, shorter;
 };
@@ -32,7 +32,7 @@ struct Ball {
   std::function<Trial(const Conditions&, Scale)> trial;
 };
 
-// scenes/accuracy/melting_ball.toml: a ball of radius 6 in hot air.
+// Runs scenes/accuracy/melting_ball.toml, a ball of radius 6 in hot air.
 Trial melting(const Conditions& conditions, Scale s) {
   const int side = 32 * s.finer, high = 16 * s.finer, radius = 6 * s.finer;
   return {conditions,
@@ -44,7 +44,8 @@ Trial melting(const Conditions& conditions, Scale s) {
            fmt::format("flow.viscous.kappa={}", 0.05 / s.finer / s.shorter)}};
 }
 
-// A ball that has melted, of `diameter` cells at scale 1; kappa x steps / diameter^3 is that of 1 at 32.
+// Runs a ball that has melted, of `diameter` cells at scale 1. kappa x steps is 1 at diameter 32, and kappa x
+// steps x diameter is the same for all.
 constexpr std::uint32_t kMeltedSteps = 800;
 template <int diameter>
 Trial melted(const Conditions& conditions, Scale s) {
@@ -63,8 +64,8 @@ Trial melted(const Conditions& conditions, Scale s) {
 }
 
 struct Spread {
-  double liquid;  // cells of the coarsest grid
-  double radius;  // rms of the liquid, in their edges
+  double liquid;  // in cells of the coarsest grid
+  double radius;  // rms of the liquid, in edges of those cells
 };
 Spread spread_of(const Trial& trial, int finer) {
   const Moments m = moments(Columns(trial.volume()));
@@ -117,7 +118,7 @@ Outcome compare(const Conditions& conditions, const std::vector<Ball>& balls, co
 
 }  // namespace
 
-// Steps as many times shorter as the cells are smaller.
+// Steps become shorter by the same factor as cells become smaller.
 Outcome measure_melted_ball(const Conditions& conditions) {
   std::vector<Ball> balls;
   if (conditions.quick)
@@ -130,7 +131,7 @@ Outcome measure_melted_ball(const Conditions& conditions) {
                  conditions.quick ? std::nullopt : std::optional(0.02));
 }
 
-// Conduction needs steps that are shorter by the square.
+// Conduction needs steps that are shorter by the square of that factor.
 Outcome measure_convergence_in_grid(const Conditions& conditions) {
   std::vector<Ball> balls;
   for (const int n : conditions.quick ? std::vector{1, 2} : std::vector{1, 2, 4})

@@ -1,4 +1,4 @@
-// Dams that break in a channel, and drops that start from a disc.
+// These cases run dams that break in a channel, and drops that start from a disc.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// The middle row of a channel. The side walls bar diagonals, and have no effect there.
+// Returns the middle row of a channel. The side walls bar diagonals, and have no effect there.
 std::vector<double> middle_row(const Columns& columns) {
   const auto first = columns.depth.begin() + static_cast<std::ptrdiff_t>(columns.nz / 2) * columns.nx;
   return {first, first + columns.nx};
 }
-double mean_x(const std::vector<double>& depth) {  // from the closed end
+double mean_x(const std::vector<double>& depth) {  // distance from the closed end
   double sum = 0, sum_x = 0;
   for (std::size_t x = 0; x < depth.size(); ++x) {
     sum += depth[x];
@@ -57,7 +57,7 @@ Trial channel(const Conditions& conditions, double kappa, int length, int height
 
 }  // namespace
 
-// A dam on Huppert's profile, from depth 4 to 2 (32 times its age).
+// Runs a dam on Huppert's profile, from depth 4 to 2 (32 times its age).
 Outcome measure_dam_length(const Conditions& conditions) {
   const double kappa = 0.05, front = 24;
   const Dam dam = dam_of_depth(kappa, 4, front);
@@ -108,7 +108,7 @@ Outcome measure_dam_length(const Conditions& conditions) {
   return outcome;
 }
 
-// Dams 16 high and 32 long, compared after equal kappa x steps. Only their viscosity differs.
+// Compares dams 16 high and 32 long after equal kappa x steps. Only their viscosity differs.
 Outcome measure_dam_viscosity(const Conditions& conditions) {
   constexpr int kHigh = 16, kLong = 32, kChannel = 112, kWide = 17, kParts = 8;
   constexpr double kLater = 4;  // kappa x steps, when the far end of the dam has an effect at the wall
@@ -162,7 +162,8 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
   return outcome;
 }
 
-// A disc of radius 12 and depth 4 under both laws: how round it stays, and how fast it grows in the end.
+// Runs a disc of radius 12 and depth 4 under both laws. The rows say how round it stays, and how fast it
+// grows in the end.
 Outcome measure_drop_shape(const Conditions& conditions) {
   constexpr int kHalf = 40;
   Outcome outcome;

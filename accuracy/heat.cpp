@@ -1,4 +1,4 @@
-// Conduction and melting against the heat kernel, the slab and the Stefan problems.
+// These cases hold conduction and melting against the heat kernel, the slab and the Stefan problems.
 #include "accuracy/heat.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-// A column of `cells` under an isothermal wall. Temperatures are 0..1.
+// Sets a column of `cells` under an isothermal wall. Temperatures are 0..1.
 Strings column(int cells, double gamma, double wall, double start) {
   return {fmt::format("grid.size=[1,{},1]", cells + 1),
           fmt::format("heat.gamma={}", gamma),
@@ -31,7 +31,7 @@ Strings column(int cells, double gamma, double wall, double start) {
           fmt::format("solid.0.temperature={}", start)};
 }
 
-// From the centre of the wall, where its temperature is.
+// Returns the depth below the centre of the wall, where its temperature is.
 double depth_of(const state::Volume& v, int y) { return v.grid.y - 1 - y; }
 constexpr double kHalfTheWall = 0.5;
 
@@ -103,7 +103,7 @@ Followed follow(const Conditions& conditions, const Stefan& stefan, int cells, d
 
 }  // namespace
 
-// A Gaussian of sigma 6 in a block of 10 final sigmas; the second moment triples.
+// Runs a Gaussian of sigma 6 in a block of 10 final sigmas. The second moment triples.
 Outcome measure_heat_kernel(const Conditions& conditions) {
   struct Setting {
     int neighbours;
@@ -150,7 +150,7 @@ Outcome measure_heat_kernel(const Conditions& conditions) {
   return outcome;
 }
 
-// A slab, one face held at a temperature and the other insulated, until half of the heat is in.
+// Runs a slab until half of the heat is in. One face is held at a temperature, and the other is insulated.
 Outcome measure_slab(const Conditions& conditions) {
   constexpr int kCells = 64;
   constexpr double kGamma = 0.3, kWall = 0.9, kThick = kCells + kHalfTheWall;

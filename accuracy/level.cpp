@@ -1,4 +1,4 @@
-// Communicating vessels: both surfaces end at one height.
+// These cases run communicating vessels: both surfaces end at one height.
 #include "accuracy/level.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ struct Shaft {
   int x0, x1, z0, z1;  // cells, end not included
 };
 
-// Liquid above `bottom`, per column.
+// Returns the liquid above `bottom`, in cells per column.
 double height(const state::Volume& v, const Shaft& s, int bottom) {
   double sum = 0;
   for (int z = s.z0; z < s.z1; ++z)
@@ -35,8 +35,8 @@ double height(const state::Volume& v, const Shaft& s, int bottom) {
 struct Vessels {
   Shaft left, right;  // a tunnel joins them, as wide as they are, with a ceiling
   int bottom;
-  int ceiling;                                // above the bottom
-  std::optional<double> incompressible_gate;  // of the mean height beside that of an incompressible liquid
+  int ceiling;                                // in cells above the bottom
+  std::optional<double> incompressible_gate;  // for the mean height against an incompressible liquid's
 
   static double area(const Shaft& s) { return (s.x1 - s.x0) * (s.z1 - s.z0); }
   double level(double volume, double stiffness) const {
@@ -90,16 +90,16 @@ Outcome follow(Trial& trial, const Vessels& vessels, const std::vector<std::uint
 
 }  // namespace
 
-// The scene lesson_tubes at its own end. Its 600 cells of liquid would fill the tunnel with 480, and each
-// shaft of 30 cells with 60 above it, if they were incompressible.
+// Runs the scene lesson_tubes to its own end. Its 600 cells of liquid would fill the tunnel with 480, and
+// each shaft of 30 cells with 60 above it, if they were incompressible.
 Outcome measure_tubes(const Conditions& conditions) {
   Trial trial(conditions, "../lesson_tubes", {});
   const Vessels vessels{{4, 9, 3, 9}, {19, 24, 3, 9}, 2, 4, {}};
   return follow(trial, vessels, conditions.quick ? std::vector{4000u} : std::vector{4000u, 20000u});
 }
 
-// Two shafts of 3 x 3 above a tunnel 3 high, one filled 21 high and the other 3: an incompressible liquid
-// would stand at 12.
+// Runs two shafts of 3 x 3 above a tunnel 3 high, one filled 21 high and the other 3. An incompressible
+// liquid would stand at 12.
 Outcome measure_u_tube(const Conditions& conditions) {
   Trial trial(conditions, "flow", {"grid.size=[11,30,5]", "flow.viscous.kappa=0.1"}, [](state::Volume& v) {
     for_each_cell(v.grid, [&](int x, int y, int z) {

@@ -1,4 +1,4 @@
-// Radiation against Lambert's cosine, the cross-section of a ball, and the edge of a shadow.
+// These cases hold radiation against Lambert's cosine, the cross-section of a ball, and the edge of a shadow.
 #include "accuracy/light.h"
 
 #include <fmt/format.h>
@@ -26,13 +26,13 @@ namespace {
 using Direction = std::array<double, 3>;
 
 constexpr std::uint32_t kSteps = 16;  // a whole period of the lowest bits, in 1/16 unit
-constexpr double kStrength = 1000;    // units of heat per step of a face that is turned to the source
+constexpr double kStrength = 1000;    // units of heat per step for a face that is turned to the source
 
 Direction unit(Direction d) {
   const double length = std::hypot(d[0], d[1], d[2]);
   return {d[0] / length, d[1] / length, d[2] / length};
 }
-// `angle` from the vertical, `azimuth` from x, in degrees.
+// Gives the unit vector at `angle` from the vertical and `azimuth` from x, in degrees.
 Direction from_angles(double angle, double azimuth) {
   const double a = angle * std::numbers::pi / 180, b = azimuth * std::numbers::pi / 180;
   return {std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)};
@@ -44,7 +44,8 @@ struct Source {
 };
 Source far_source(Direction centre, Direction towards, double distance) {
   const Direction d = unit(towards);
-  // Rounds to a sixteenth of a cell, as the automaton does, so that the exact answer is for the same place.
+  // Places are rounded to a sixteenth of a cell, as the automaton does, so that the exact answer is for the
+  // same place.
   const auto place = [&](std::size_t a) { return std::round(16 * (centre[a] + distance * d[a])) / 16; };
   return {{place(0), place(1), place(2)}, std::round(kStrength / kHottest * distance * distance)};
 }
@@ -61,7 +62,7 @@ Trial light(const Conditions& conditions, int nx, int ny, int nz, const Source& 
   return trial;
 }
 
-// Heat per step, in the scene's range x cells, of the columns of a rectangle.
+// Returns the heat per step that the columns of a rectangle take up, in the scene's range x cells.
 double taken_up(const state::Volume& v, int x0, int x1, int z0, int z1) {
   double sum = 0;
   for_each_cell(v.grid, [&](int x, int y, int z) {
@@ -70,7 +71,8 @@ double taken_up(const state::Volume& v, int x0, int x1, int z0, int z1) {
   return sum / (kHottest * kSteps);
 }
 
-// What reaches the upper face of a cell, at the height y: power x cosine / distance^2 at its middle.
+// Gives the power that reaches the upper face of a cell, at the height y: power x cosine / distance^2 at its
+// middle.
 double on_floor(const Source& source, int x, int y, int z) {
   const double dx = source.at[0] - x - 0.5, dy = source.at[1] - y, dz = source.at[2] - z - 0.5;
   return source.power * dy / std::pow(dx * dx + dy * dy + dz * dz, 1.5);
@@ -96,7 +98,7 @@ state::Volume cells_of_ball() {
 }
 
 struct LitBall {
-  double energy;  // per step and power of the source
+  double energy;  // per step, over the power of the source
   Speed speed;
 
   LitBall(const Conditions& conditions, const Source& source, int rays_per_face) {
@@ -106,7 +108,7 @@ struct LitBall {
   }
 };
 
-// Evenly spread over the sphere: equal steps of height, each turned by the golden angle.
+// Spreads directions evenly over the sphere: equal steps of height, each turned by the golden angle.
 std::vector<Direction> spiral(int count) {
   std::vector<Direction> directions;
   directions.reserve(static_cast<std::size_t>(count));
@@ -136,7 +138,7 @@ std::string text_of(const Direction& d) { return fmt::format("({:g}, {:g}, {:g})
 
 }  // namespace
 
-// A plane of 65 x 65 cells; its middle third, which the rim does not reach, is measured.
+// Runs a plane of 65 x 65 cells. Its middle third, which the rim does not reach, is measured.
 Outcome measure_lit_plane(const Conditions& conditions) {
   constexpr int kSide = 65, kRim = 22, kTop = 3;
   Outcome outcome;
@@ -175,7 +177,7 @@ Outcome measure_lit_plane(const Conditions& conditions) {
 
 namespace {
 
-// Of the ball's cells, over that of the ball.
+// Returns the silhouettes of the ball's cells, over that of the ball.
 std::vector<double> silhouettes_of_cells(const std::vector<Source>& sources, double of_ball) {
   const state::Volume cells = cells_of_ball();
   std::vector<double> silhouettes;
@@ -186,8 +188,8 @@ std::vector<double> silhouettes_of_cells(const std::vector<Source>& sources, dou
 
 }  // namespace
 
-// A ball of radius 20, the source 50 radii away: three directions by name, and 100 on a spiral over the
-// sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
+// Runs a ball of radius 20, the source 50 radii away, from three directions by name and 100 on a spiral over
+// the sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
 Outcome measure_lit_ball(const Conditions& conditions) {
   const double exact = ball_intercepts(kBallRadius, kBallDistance);
   Conditions without_baseline = conditions;
@@ -247,9 +249,9 @@ Outcome measure_lit_ball(const Conditions& conditions) {
   return outcome;
 }
 
-// A wall 12 cells high is on a floor, with the source to its left. What the floor behind it lacks of the
-// light of an open floor, in whole cells, is the length of the shadow. Rays stand 1/m of a cell apart, m
-// along each side of a face, so that it may be wrong by 1/(2 m).
+// A wall 12 cells high is on a floor, with the source to its left. The length of the shadow is the light that
+// the floor behind it lacks beside an open floor, in whole cells. Rays stand 1/m of a cell apart, m along
+// each side of a face, so that it may be wrong by 1/(2 m).
 Outcome measure_shadow_edge(const Conditions& conditions) {
   constexpr int kWide = 96, kDeep = 9, kFloor = 2, kWallEnd = 24, kWallTop = kFloor + 12, kRow = kDeep / 2;
   const auto fill = [](state::Volume& v) {

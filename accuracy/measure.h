@@ -1,4 +1,4 @@
-// Numbers taken from a volume: columns of liquid, radii, moments, fronts.
+// The functions here take numbers from a volume: columns of liquid, radii, moments, fronts.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace voxmelt::accuracy {
 
-// Liquid per column, in cells; x and z count from the middle of the grid, at centres of columns.
+// Holds the liquid per column, in cells. Its x and z count from the middle of the grid, at centres of
+// columns.
 struct Columns {
   explicit Columns(const state::Volume& volume);
   double at(int x, int z) const { return depth[static_cast<std::size_t>(z * nx + x)]; }
@@ -28,20 +29,21 @@ struct Moments {
 };
 Moments moments(const Columns& columns);
 
-// Radius of the disc that covers as many columns as are at least `depth` deep.
+// Returns the radius of the disc that covers as many columns as are at least `depth` deep.
 double wet_radius(const Columns& columns, double depth);
 
-// Root of the mean square of measured - exact over the columns that either has, over the mean depth.
+// Returns the root of the mean square of measured - exact over the columns that either has, over the mean
+// depth.
 double profile_error(const Columns& columns, const std::function<double(double radius)>& exact);
 
-// Mean depth over rings one cell wide, from the middle out.
+// Returns the mean depth over rings one cell wide, from the middle out.
 std::vector<double> radial_profile(const Columns& columns);
 
-// Second moment of heat about the grid's middle: sum h r^2 / sum h, in cells^2.
+// Returns the second moment of heat about the grid's middle: sum h r^2 / sum h, in cells^2.
 double heat_second_moment(const state::Volume& volume);
 
-// How many cells of latent heat the volume has taken up, partly molten cells included. All cells started
-// at or below the melting point.
+// Returns how many cells of latent heat the volume has taken up, partly molten cells included. All cells
+// started at or below the melting point.
 double melted_cells(const state::Volume& volume, double melting_point, double latent_heat);
 
 }  // namespace voxmelt::accuracy

@@ -1,4 +1,4 @@
-// What must rest rests. What falls falls whole. Nothing is compressed in the open.
+// Liquid that must rest rests, falling liquid stays whole, and nothing is compressed in the open.
 #include "accuracy/rest.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// The sum of all changes of amounts in the next `steps`, in cells.
+// Returns half the sum of all changes of amounts in the next `steps`, in cells.
 double motion(Trial& trial, std::uint32_t steps) {
   const auto before = trial.volume().amount;
   trial.run_to(trial.steps() + steps);
@@ -50,7 +50,8 @@ Row absolute(const std::string& setting, const std::string& quantity, double val
 
 }  // namespace
 
-// A closed full box has no flow at all; a checkerboard of a pool goes flat; a film with a yield stress stops.
+// A closed full box has no flow at all, a checkerboard of a pool goes flat, and a film with a yield stress
+// stops.
 Outcome measure_rest(const Conditions& conditions) {
   Outcome outcome;
   Trial box = flow(conditions, {12, 6, 12}, {"flow.viscous.kappa=20"}, [](state::Volume& v) {
@@ -148,7 +149,7 @@ Outcome measure_fall(const Conditions& conditions) {
   return outcome;
 }
 
-// A ball drops and a vent pours: the largest amount that a cell holds after a step.
+// Finds the largest amount that a cell holds after a step, while a ball drops and a vent pours.
 Outcome measure_filling(const Conditions& conditions) {
   Trial trial(conditions, "pour", {});
   Outcome outcome;
@@ -170,8 +171,8 @@ Outcome measure_filling(const Conditions& conditions) {
 }
 
 // A column of cells that hold too little or too much becomes full cells. By right each takes the parts of the
-// column between its own ends, with their heat. What passes through a cell mixes with it, which costs about
-// the difference of one cell's heat from the next one's, 0.014 of the range.
+// column between its own ends, with their heat. Liquid that passes through a cell mixes with it, which costs
+// about the difference of one cell's heat from the next one's, 0.014 of the range.
 Outcome measure_layers(const Conditions& conditions) {
   constexpr int kCells = 32, kGivenOne = 4096;
   const auto amount = [](int k) { return 3700 + 397 * k % 800; };
@@ -185,7 +186,7 @@ Outcome measure_layers(const Conditions& conditions) {
                });
   column.run_to(1);
   double wrong = 0;
-  int bottom = 0, part = 0, taken = 0;  // the part that is being laid down, and what of it is
+  int bottom = 0, part = 0, taken = 0;  // the part that is being laid down, and the amount of it laid so far
   while (part < kCells) {
     int held = 0;
     double sum = 0;

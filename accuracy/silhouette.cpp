@@ -24,7 +24,7 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 Vector unit(const Vector& a) { return plus({}, 1 / std::sqrt(dot(a, a)), a); }
 
-// Does the line from `eye` along `way` meet the cube of side 1 with its lowest corner at `low`?
+// Tells if the line from `eye` along `way` meets the cube of side 1 with its lowest corner at `low`.
 bool meets(const Vector& eye, const Vector& way, const Vector& low) {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < 3; ++a) {
@@ -48,7 +48,7 @@ double solid_angle(const state::Volume& volume, const std::array<double, 3>& eye
   const Vector towards = unit(back);
   const Vector right = unit(cross(towards, std::abs(towards[1]) < 0.9 ? Vector{0, 1, 0} : Vector{1, 0, 0}));
   const Vector up = cross(right, towards);
-  // What is nearer to the eye looks larger.
+  // Parts nearer to the eye look larger, so the pixels reach further than the grid.
   const double reach = std::sqrt(dot(middle, middle));
   const int half = static_cast<int>(std::ceil(reach * distance / (distance - reach) / kPixel)) + 1;
   const auto side = static_cast<std::size_t>(2 * half);

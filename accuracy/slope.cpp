@@ -1,4 +1,4 @@
-// Films and blobs that run down a plane, against Nusselt's film.
+// These cases hold films and blobs that run down a plane against Nusselt's film.
 #include "accuracy/slope.h"
 
 #include <fmt/format.h>
@@ -20,15 +20,15 @@ namespace {
 
 enum class Bed { smooth, stairs };
 
-// A column of inert cells with its surface at `height`, and `depth` of liquid on it.
+// Puts a column of inert cells with its surface at `height`, and `depth` of liquid on it.
 void put_bed(state::Volume& v, int x, int z, double height, double depth, Bed bed) {
   const int top = static_cast<int>(std::lround(height));
   for (int y = 0; y < top; ++y) put_inert(v, x, y, z, y + 1 == top && bed == Bed::smooth ? height - top : 0);
   put_column(v, x, z, depth, top);
 }
 
-// A uniform film on a plane that falls along x. After `lead` steps its flux through 20 columns in the middle
-// is counted, and compared with Nusselt's at the depth that the film has there meanwhile.
+// A uniform film lies on a plane that falls along x. After `lead` steps its flux through 20 columns in the
+// middle is counted. It is compared with Nusselt's at the depth that the film has there meanwhile.
 struct Film {
   double slope, depth;
   Bed bed = Bed::smooth;
@@ -101,7 +101,7 @@ Outcome measure_stairs(const Conditions& conditions) {
   const std::vector<double> depths =
       conditions.quick ? std::vector<double>{0.5} : std::vector<double>{0.5, 1, 1.6};
   for (const double depth : depths) {
-    // It runs until the liquid has found its depth on each step, and before the end of the film comes.
+    // It runs until the liquid has found its depth on each step, and ends before the end of the film comes.
     Film film{.slope = 0.1, .depth = depth, .bed = Bed::stairs, .length = 180, .width = 9};
     film.lead = static_cast<std::uint32_t>(5000 / (depth * depth));
     film.counted = film.lead / 4;
@@ -116,7 +116,7 @@ namespace {
 
 constexpr double kBlobKappa = 0.1;
 
-// A paraboloid in the middle of a plane that falls by so much per cell along x and z.
+// Puts a paraboloid in the middle of a plane that falls by so much per cell along x and z.
 Trial blob_on_plane(const Conditions& conditions, double fall_x, double fall_z) {
   constexpr int kHalf = 32;
   constexpr double kDepth = 1.6, kRadius = 12;

@@ -1,4 +1,4 @@
-// Viscous gravity currents on a plane against Huppert (1982).
+// These cases hold viscous gravity currents on a plane against Huppert (1982).
 #include "accuracy/spreading.h"
 
 #include <fmt/format.h>
@@ -21,13 +21,13 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// A drop that starts on Huppert's profile, with its age: the time since it was a point.
+// A drop starts on Huppert's profile. Its age is the time since it was a point.
 struct Start {
   double kappa, depth, front;
 
   Drop drop() const { return {kappa, 0.75 * std::numbers::pi * front * front * depth}; }
   double age() const { return drop().time_of_front(front); }
-  // Steps from the start until the drop is `thinner` times as deep: depth falls as t^(-1/4).
+  // Returns the steps from the start until the depth has fallen by the factor `thinner`, as t^(-1/4).
   std::uint32_t steps_until(double thinner) const {
     return static_cast<std::uint32_t>(std::lround(age() * (std::pow(thinner, 4) - 1)));
   }
@@ -46,7 +46,7 @@ struct Start {
 };
 
 struct Sample {
-  double time, depth;  // since the drop was a point; in the middle, by Huppert
+  double time, depth;  // time since the drop was a point; depth in the middle, by Huppert
   Moments moments;
   double radius_error;  // relative
 };
@@ -57,7 +57,7 @@ Sample sample(const Start& start, const Trial& trial) {
   return {time, drop.height(0, time), m, m.rms_radius / drop.rms_radius(time) - 1};
 }
 
-// d log radius / d log time between two samples.
+// Returns d log radius / d log time between two samples.
 double exponent(const Sample& a, const Sample& b) {
   return std::log(b.moments.rms_radius / a.moments.rms_radius) / std::log(b.time / a.time);
 }
@@ -69,7 +69,7 @@ Chart profile_chart(const std::string& title, const Trial& trial, double front,
   const double end = 1.15 * front;
   for (std::size_t r = 0; r < rings.size() && static_cast<double>(r) < end; ++r)
     measured.points.push_back({static_cast<double>(r), rings[r]});
-  for (int i = 1; i <= 120; ++i)  // a current that is fed has no depth in its middle
+  for (int i = 1; i <= 120; ++i)  // from 1, as a current that is fed has no depth in its middle
     exact.points.push_back({end * i / 120, height(end * i / 120)});
   return {.title = title, .x_label = "radius, cells", .y_label = "depth, cells", .curves = {exact, measured}};
 }
@@ -115,14 +115,15 @@ Row profile_row(const std::string& setting, const Trial& trial, const Start& sta
           .speed = trial.speed()};
 }
 
-// What the vent has really given, which its rate in units of amount decides.
+// Returns the current of the flux that the vent has really given. Its rate, rounded to units of amount,
+// decides that.
 FedCurrent fed(const Trial& trial, double kappa) {
   return {kappa, static_cast<double>(trial.simulation().ledger().mass.added) / kOne / trial.steps()};
 }
 
 }  // namespace
 
-// Depth 10 to 2 at kappa 0.02: five samples, each of which must hold.
+// The drop goes from depth 10 to 2 at kappa 0.02. Each of five samples must hold.
 Outcome measure_huppert(const Conditions& conditions) {
   const Start start{0.02, 10, 20};
   Trial trial = start.trial(conditions, 5);
@@ -151,7 +152,7 @@ Outcome measure_huppert(const Conditions& conditions) {
   return outcome;
 }
 
-// Films from depth 2 to 1/2, and on to 0.3, where the dead zone of one unit of head has an effect.
+// Films go from depth 2 to 1/2, and on to 0.4, where the dead zone of one unit of head has an effect.
 Outcome measure_thin_film(const Conditions& conditions) {
   const Start start{0.1, 2, conditions.quick ? 16. : 20.};
   Trial trial = start.trial(conditions, 2 / 0.35);
@@ -192,9 +193,10 @@ Outcome measure_thin_film(const Conditions& conditions) {
 
 namespace {
 
-// A vent of radius 3 that gives `flux` cells per step, on a plane as wide as the liquid will be at `steps`.
+// Puts a vent of radius 3 that gives `flux` cells per step. The plane is as wide as the liquid will be at
+// `steps`.
 Trial vent_on_plane(const Conditions& conditions, double kappa, double flux, std::uint32_t steps) {
-  constexpr double kVentCells = 76;  // with their centre within the radius
+  constexpr double kVentCells = 76;  // cells with their centre within the radius
   const int half = static_cast<int>(1.12 * FedCurrent{kappa, flux}.front(steps)) + 4;
   return Trial(
       conditions, "vent",
@@ -205,8 +207,9 @@ Trial vent_on_plane(const Conditions& conditions, double kappa, double flux, std
 
 }  // namespace
 
-// A vent of radius 3 that gives 5 cells per step. In the second moment its width cancels: what it brings to
-// it from the start is what it takes away from the depth above the vent (Green's theorem on h^4 and r^2).
+// Runs a vent of radius 3 that gives 5 cells per step. In the second moment its width cancels. It brings to
+// the moment from the start what it takes away from the depth above the vent (Green's theorem on h^4 and
+// r^2).
 Outcome measure_flux_vent(const Conditions& conditions) {
   constexpr double kWet = 1.0 / 256;
   Outcome outcome;

@@ -1,4 +1,4 @@
-// One run of a case: a committed scene, its start state, and how fast it ran.
+// A trial is one run of a case: a committed scene, its start state, and how fast it ran.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ class Trial {
  public:
   using Fill = std::function<void(state::Volume& empty)>;
 
-  // `scene`: a file of the cases' folder without its suffix; `sets`: "path.to.key=value", as of --set.
-  // `fill` writes the start state into an empty grid; without it the scene's own shapes are the start.
-  // Throws scene::InputError where the scene is refused.
+  // Runs `scene`, a file of the cases' folder without its suffix. Each of `sets` is "path.to.key=value", as
+  // of --set. `fill` writes the start state into an empty grid. Without it the scene's own shapes are the
+  // start. Throws scene::InputError if the scene is refused.
   Trial(const Conditions& conditions, const std::string& scene, std::vector<std::string> sets,
         const Fill& fill = {});
 
@@ -30,10 +30,12 @@ class Trial {
   const run::Simulation& simulation() const { return *simulation_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  // Steps from `from` to `end` for a curve over a logarithm of time: each one, then a tenth later each.
+  // Returns the steps from `from` to `end` for a curve over a logarithm of time: each one, then a tenth later
+  // each.
   static std::vector<std::uint32_t> samples(std::uint32_t from, std::uint32_t end);
 
-  // A run whose ledgers do not balance proves nothing. Then speed() throws std::runtime_error.
+  // A run whose ledgers do not balance proves nothing. If they must balance and do not, speed() throws
+  // std::runtime_error.
   enum class Books { must_balance, are_asked_for };
   Speed speed(Books books = Books::must_balance) const;
 

@@ -1,4 +1,5 @@
-// voxmelt accuracy: how well the automaton does physics, against answers that mathematics gives.
+// The command `voxmelt accuracy` tells how well the automaton does physics, against answers that mathematics
+// gives.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ using accuracy::Case;
 struct AccuracyOptions {
   Common common;
   std::vector<std::string> cases;
-  std::vector<std::string> front;  // scenes
+  std::vector<std::string> front;  // scenes of --front
   bool wants_front = false;
   std::string out;
   bool quick = false;
@@ -108,7 +109,7 @@ int run_accuracy(const AccuracyOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     accuracy::Found found{one, one->measure(conditions), 0};
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (report.found.empty()) print_header();  // not before an error of the first case
+    if (report.found.empty()) print_header();  // an error of the first case comes before any output
     print_rows(found);
     report.found.push_back(std::move(found));
     stop_if_interrupted();
@@ -152,7 +153,7 @@ void add_accuracy(CommandLine& program) {
       "on the same start; for a scene of the viscous law it runs the paper's law.");
   command.runs([options, front] {
     options->wants_front = front.given();
-    std::erase(options->front, "");  // of --front alone
+    std::erase(options->front, "");  // --front alone gives an empty name
     return run_accuracy(*options);
   });
 }

@@ -1,4 +1,4 @@
-// voxmelt accuracy --front: speed against error.
+// The command `voxmelt accuracy --front` compares the speed of settings with their error.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 namespace voxmelt::app {
 
 struct FrontOptions {
-  std::vector<std::string> scenes;  // empty: all of the set
+  std::vector<std::string> scenes;  // all of the set if empty
   std::string out;
   bool quick = false;
 };
 
-// `conditions.scenes`: the folder of the scenes themselves. Throws UsageError.
+// Runs the front. `conditions.scenes` is the folder of the scenes themselves. Throws UsageError.
 int run_front(const Common& common, const FrontOptions& options, const accuracy::Conditions& conditions);
 
 }  // namespace voxmelt::app

@@ -1,4 +1,4 @@
-// voxmelt list: what this build and its scenes can do.
+// The command `voxmelt list` tells what this build and its scenes can do.
 #include <functional>
 #include <map>
 #include <memory>

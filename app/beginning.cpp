@@ -17,7 +17,7 @@ bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Of both, with all that the rules depend on.
+// Tells if both scenes agree in all that the rules depend on.
 bool is_same(const scene::Scene& a, const scene::Scene& b) {
   const auto text = [](const scene::Scene& scene) {
     return io::parameters_json(scene.parameters, scene.initial.grid, scene.first_step);
@@ -40,7 +40,7 @@ std::uint32_t steps_of(const std::string& from) {
 Beginning begin_from(const Common& common, const std::string& from) {
   Beginning begin;
   if (names_a_file(from)) {
-    if (!run::is_checkpoint(from)) steps_of(from);  // says what it is not
+    if (!run::is_checkpoint(from)) steps_of(from);  // throws, and says what `from` is not
     scene::Scene at = run::scene_of(checkpoint::read(from), from);
     begin.scene = load_scene(common);
     if (begin.scene.mid_run)

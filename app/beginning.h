@@ -1,4 +1,4 @@
-// Where a command begins: a scene's first step, --from STEP, or --from CHECKPOINT.
+// A command begins at a scene's first step, at --from STEP, or at --from CHECKPOINT.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace voxmelt::app {
 
 struct Beginning {
   scene::Scene scene;
-  std::uint32_t steps = 0;  // that are done when the command's own work begins
+  std::uint32_t steps = 0;  // steps done when the command's own work begins
 };
 
-// `from` is a number of steps, or a checkpoint of the same scene. Throws UsageError.
+// Reads `from`, a number of steps or a checkpoint of the same scene. Throws UsageError.
 Beginning begin_from(const Common& common, const std::string& from);
 
-// The number that `from` is; throws UsageError where it is none.
+// Returns the number of steps in `from`. Throws UsageError if it is no number.
 std::uint32_t steps_of(const std::string& from);
 bool names_a_file(const std::string& from);
 
-// Refuses --steps STEPS of a scene that is a checkpoint beyond them; 0 asks for none.
+// Refuses --steps STEPS if the scene is a checkpoint beyond them. 0 means that no steps were given.
 void check_steps(const scene::Scene& scene, std::uint32_t steps);
 
 }  // namespace voxmelt::app

@@ -1,5 +1,5 @@
-// voxmelt bench: how fast it is, how near to the machine's limits, and how many times as fast as the
-// paper's program.
+// The command `voxmelt bench` tells how fast the program is, how near to the machine's limits, and how many
+// times as fast as the paper's program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@
 namespace voxmelt::app {
 namespace {
 
-constexpr const char* kEvery = "all";  // of --implementation
+constexpr const char* kEvery = "all";  // value of --implementation
 
 struct BenchOptions {
   Common common;
@@ -85,7 +85,7 @@ std::vector<scene::Scene> load_scenes(const Common& common, const std::vector<st
   return scenes;
 }
 
-// The bunny, and its finer grids beside it.
+// Loads the bunny, and its finer grids beside it.
 std::vector<scene::Scene> finer_scenes(const BenchOptions& options) {
   std::vector<scene::Scene> scenes = load_scenes(options.common, {"bunny"});
   const std::filesystem::path large = scenes.front().file.parent_path() / "large";
@@ -100,7 +100,7 @@ std::vector<std::string> film_scenes(bool quick) {
                : std::vector<std::string>{"cello", "goblet", "lava"};
 }
 
-// The report, and into `out`, unless it is null, tables and plot.
+// Writes the report. It also writes tables and plot into `out`, unless it is null.
 void write_findings(const BenchOptions& options, const measure::Findings& findings, io::OutputFolder* out) {
   const std::string report = measure::bench_json(findings, version_text());
   write_report(options.common, report);
@@ -125,7 +125,7 @@ void warn_of_load(double load, int own) {
 int run_bench(BenchOptions options) {
   std::optional<std::uint32_t> from;
   if (options.from && names_a_file(*options.from)) {
-    if (!run::is_checkpoint(*options.from)) steps_of(*options.from);  // says what it is not
+    if (!run::is_checkpoint(*options.from)) steps_of(*options.from);  // throws, and says what it is not
     if (!options.scenes.empty())
       throw UsageError(fmt::format("error: --from {}: a checkpoint is a scene of its own, without --scenes",
                                    *options.from));

@@ -1,4 +1,4 @@
-// What `voxmelt bench` prints, line by line.
+// The functions here print the lines of `voxmelt bench`.
 #pragma once
 
 #include <vector>

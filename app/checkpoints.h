@@ -1,4 +1,4 @@
-// The checkpoints that a run writes into its output folder.
+// A run writes these checkpoints into its output folder.
 #pragma once
 
 #include <chrono>
@@ -13,28 +13,29 @@
 
 namespace voxmelt::app {
 
-// --checkpoint-every: so many steps, or so many seconds ("90s").
+// Holds the value of --checkpoint-every: a number of steps, or of seconds ("90s").
 struct Interval {
-  std::uint32_t steps = 0;  // 0: it counts seconds
+  std::uint32_t steps = 0;  // 0 if the interval is in seconds
   double seconds = 0;
 };
-// Empty text gives nothing. Throws UsageError.
+// Reads an interval. Empty text gives none. Throws UsageError.
 std::optional<Interval> interval_of(const std::string& text);
 
 class Checkpoints {
  public:
-  // Into `folder`, of a run of this scene.
+  // Writes into `folder`, for a run of this scene.
   Checkpoints(std::filesystem::path folder, const scene::Scene& scene, checkpoint::SceneText text,
               int threads);
 
-  // Is it time for one, between two steps?
+  // Tells if it is time for a checkpoint, between two steps.
   bool due(const std::optional<Interval>& interval, std::uint32_t steps_done) const;
 
-  // Those of this run take at most a twentieth of its time, if another one is written now.
+  // Tells if the checkpoints of this run take at most a twentieth of its time when another one is written
+  // now.
   bool affordable() const { return Clock::now() - last_ >= 20 * cost_; }
 
-  // Throws io::OutputError. With `record` as it was before these frames; `seconds` are those of the run so
-  // far. Nothing is written where a frame is missing that was due before this step.
+  // Writes a checkpoint. `record` is as it was before these frames, and `seconds` are those of the run so
+  // far. Nothing is written if a frame is missing that was due before this step. Throws io::OutputError.
   bool write(RunRecord record, Film& film, const run::Simulation& simulation, const Watch::Seen& seen,
              const RunSeconds& seconds);
 
@@ -44,9 +45,9 @@ class Checkpoints {
   const scene::Scene& scene_;
   checkpoint::SceneText text_;
   int threads_;
-  std::vector<checkpoint::FileState> frames_;  // that are known, and on the disk
+  std::vector<checkpoint::FileState> frames_;  // frames that are known, and on the disk
   Clock::time_point last_ = Clock::now();
-  Clock::duration cost_{};  // of the last one
+  Clock::duration cost_{};  // time that the last one took
 };
 
 }  // namespace voxmelt::app

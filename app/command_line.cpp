@@ -74,7 +74,7 @@ Option Command::option(const std::string& name, Value& value, const std::string&
   return Option(command_->add_option(name, value, description));
 }
 
-// All the types of values that commands have.
+// Commands have values of these types.
 template Option Command::option(const std::string&, int&, const std::string&) const;
 template Option Command::option(const std::string&, std::uint32_t&, const std::string&) const;
 template Option Command::option(const std::string&, std::uint64_t&, const std::string&) const;

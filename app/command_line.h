@@ -1,5 +1,5 @@
-// The command line: commands with their options, what is checked of them, and what --help says. Only the
-// source of this header knows CLI11, which takes ten seconds to compile.
+// The command line holds commands with their options, the checks of their values, and the texts of --help.
+// Only the source of this header knows CLI11, which takes ten seconds to compile.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +17,39 @@ class Option;
 
 namespace voxmelt::app {
 
-// Bad usage, whether of the command line or of what it asks for (an impossible size): exit code 2.
+// Reports bad usage, whether of the command line or of what it asks for (an impossible size). The exit code
+// is 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// An option of a command, a flag, or a value without a name. It is a handle: copies are of the same option.
-// What is said of it returns it, so that more can be said.
+// Is an option of a command, a flag, or a value without a name. It is a handle: copies are of the same
+// option. Each function that describes the option returns it, so that calls can be chained.
 class Option {
  public:
   Option required(bool is = true) const;
   Option excludes(Option other) const;  // both exclude each other
 
-  // What --help says of it.
+  // These functions set the texts of --help.
   Option shows_default() const;
   Option described_as(const std::string& description) const;
   Option written_as(const std::string& value) const;  // "KEY=VALUE" for the type's name
 
-  // How many values it takes; a list takes as many as come, unless more is said.
-  Option one_each_time() const;  // of a list: it may be repeated
-  Option any_number() const;     // none is enough
+  // These functions set how many values the option takes. A list takes as many as come, unless more is said.
+  Option one_each_time() const;  // a list may be repeated
+  Option any_number() const;     // zero values are enough
   Option separated_by(char sign) const;
 
-  // What is checked of a value.
+  // These functions set the checks of a value.
   Option one_of(const std::vector<std::string>& names) const;
   Option not_negative() const;
   Option within(int low, int high) const;
   Option within(std::uint32_t low, std::uint32_t high) const;
   Option within(std::uint64_t low, std::uint64_t high) const;
-  Option within(double low, double high) const;  // "nan" is not
+  Option within(double low, double high) const;  // refuses "nan"
 
-  bool given() const;  // once the command line is read
+  bool given() const;  // known once the command line is read
 
  private:
   friend class Command;
@@ -56,22 +57,22 @@ class Option {
   CLI::Option* option_;
 };
 
-// A command of the program; a handle as well.
+// Is a command of the program, and a handle as well.
 class Command {
  public:
-  // `name` begins with "--", or names a value by its place. What is given is put into `value`, which lives as
-  // long as the work of runs(). A Value is a number, a text, a list of texts, or a std::optional of one of
-  // these; the source lists the types.
+  // Adds an option. `name` begins with "--", or names a value by its place. The given value is put into
+  // `value`, which lives as long as the work of runs(). A Value is a number, a text, a list of texts, or a
+  // std::optional of one of these. The source lists the types.
   template <class Value>
   Option option(const std::string& name, Value& value, const std::string& description) const;
-  // "--name" sets it, "!--name" clears it.
+  // Adds a flag. "--name" sets it, "!--name" clears it.
   Option flag(const std::string& name, bool& value, const std::string& description) const;
 
-  Option find(const std::string& name) const;  // that was declared before
+  Option find(const std::string& name) const;  // one that was declared before
   std::set<std::string> given() const;         // names of options, once the command line is read
 
   void footer(const std::string& text) const;
-  // What it does, if it is the one that is chosen; gives the exit code.
+  // Sets the work of the command, which is done if the command is chosen. It returns the exit code.
   void runs(std::function<int()> work) const;
 
  private:
@@ -89,8 +90,8 @@ class CommandLine {
 
   Command add(const std::string& name, const std::string& description);
 
-  // Gives the work of the command that is chosen; nothing where help or the version was asked for, and is
-  // printed. Throws UsageError.
+  // Returns the work of the chosen command, or nothing if help or the version was asked for and printed.
+  // Throws UsageError.
   std::function<int()> read(int argc, const char* const* argv);
 
  private:

@@ -1,4 +1,4 @@
-// The subcommands. Each adds itself to its program.
+// Each function here adds a subcommand to its program.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,16 @@ void add_export(CommandLine& program);
 void add_render(CommandLine& program);
 void add_info(CommandLine& program);
 
-// Of the program voxmelt-measure.
+// The program voxmelt-measure has these.
 void add_bench(CommandLine& program);
 void add_accuracy(CommandLine& program);
 
-// Of the program voxmelt-hardware.
+// The program voxmelt-hardware has these.
 void add_verify(CommandLine& program);
 void add_explore(CommandLine& program);
 
-// `list WHAT`: `prints` has what this program can name. What others name is never asked of it.
+// Adds `list WHAT`. `prints` has the lists that this program can print. It is never asked for the lists of
+// other programs.
 void add_list(CommandLine& program, const std::map<std::string, std::function<void()>>& prints);
 
 }  // namespace voxmelt::app

@@ -1,4 +1,4 @@
-// voxmelt digest: one line per K steps; equal lines mean equal bits.
+// The command `voxmelt digest` prints one line per K steps. Equal lines mean equal bits.
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>

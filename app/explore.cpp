@@ -1,4 +1,4 @@
-// voxmelt explore: which hardware is the best for a scene, on a device and a memory.
+// The command `voxmelt explore` finds the best hardware for a scene, on a device and a memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct ExploreCommand {
   std::vector<std::string> device_sets, hw_sets;
 };
 
-// --set reaches the device, the axes of the sweep, and the scene.
+// Splits the values of --set, which reaches the device, the axes of the sweep, and the scene.
 void split_sets(ExploreCommand& command) {
   std::vector<std::string> scene;
   for (std::string& set : command.common.sets) {
@@ -61,7 +61,7 @@ std::optional<hwmodel::memory::Parameters> find_memory(const std::string& name) 
   return hwmodel::load_memory(name, "--memory " + name);
 }
 
-// The best design, and others of the front at equal distances, the slowest among them.
+// Chooses the best design, and others of the front at equal distances, the slowest among them.
 std::vector<std::size_t> chosen_points(const explore::Answer& answer, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   const std::size_t n = answer.front.size(), count = std::min(wanted, n);
@@ -89,7 +89,7 @@ int run_explore(ExploreCommand command) {
   run::Simulation ahead = run_ahead(scene, common, command.from, command.steps);
   question.grid = ahead.volume().grid;
   question.first_step = ahead.step_number();
-  ahead.begin_step();  // its irradiance
+  ahead.begin_step();  // computes the irradiance of the step
   question.irradiance = ahead.irradiance();
   question.volume = &ahead.volume();
 

@@ -1,4 +1,4 @@
-// voxmelt export: the state after N steps, for other programs.
+// The command `voxmelt export` writes the state after N steps, for other programs.
 #include "kernel/run/io/export.h"
 
 #include <fmt/format.h>

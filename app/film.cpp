@@ -17,9 +17,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// A frame that was begun before an interrupt has a second (interrupted_for_long).
+// After an interrupt, a frame that was begun before has one second (interrupted_for_long).
 constexpr double kSlow = 0.5;
-constexpr std::size_t kLargePicture = std::size_t{8} << 20;  // of which no frame was timed yet
+constexpr std::size_t kLargePicture = std::size_t{8} << 20;  // bytes of a picture that always counts as slow
 
 std::string label_of(std::uint32_t step) { return fmt::format("step {}", step); }
 

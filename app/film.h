@@ -1,4 +1,4 @@
-// The pictures of a run, and what is made of them.
+// The film draws the pictures of a run, and makes a contact sheet and a film of them.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@
 
 namespace voxmelt::app {
 
-// Sets the camera's size from "640x480"; throws UsageError.
+// Sets the camera's size from "640x480". Throws UsageError.
 void set_size(scene::Camera& camera, const std::string& size);
 
 // Frames are drawn, written and joined to a film beside the steps that follow, unless there is one thread
@@ -29,25 +29,25 @@ class Film {
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);
 
-  // Frames of these steps are in the folder already, from the part of the run before. Before the first
-  // add_frame().
+  // Says that frames of these steps are in the folder already, from an earlier part of the run. It is called
+  // before the first add_frame().
   void keep(const std::vector<std::uint32_t>& steps);
 
   // Waits until every frame is in its file, and gives their steps. After an interrupt the last one may be
   // missing.
   const std::vector<std::uint32_t>& settle();
 
-  // A frame takes so long that an interrupt may lose it.
+  // Tells if a frame takes so long that an interrupt may lose it.
   bool is_slow() const;
 
-  // Throws what stopped a frame. A run that looks often ends soon.
+  // Throws the error that stopped a frame. A run that calls it often ends soon after such an error.
   void check();
 
-  // Writes contact_sheet.png and film.mp4; returns why there is no film, or nothing.
+  // Writes contact_sheet.png and film.mp4. Returns the reason if there is no film, else nothing.
   std::string finish();
 
   std::size_t frame_count() const { return frames_.count(); }
-  RunSeconds seconds() const;  // after finish(); without the total
+  RunSeconds seconds() const;  // called after finish(); without the total
 
  private:
   struct Shot {
@@ -59,7 +59,7 @@ class Film {
   int threads_;
   render::Picture picture_;
   render::Frames frames_;
-  std::vector<std::uint32_t> steps_;  // of the frames
+  std::vector<std::uint32_t> steps_;  // steps of the frames
   std::atomic<bool> slow_ = false;
   RunSeconds seconds_;
   render::WorkLine<Shot> drawing_;  // last: its thread uses all of the above

@@ -1,4 +1,4 @@
-// voxmelt info: what a checkpoint holds.
+// The command `voxmelt info` tells what a checkpoint holds.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The newest checkpoint of an output folder, or the file itself.
+// Returns the newest checkpoint of an output folder, or the file itself.
 fs::path file_of(const fs::path& given) {
   std::error_code ignored;
   if (!fs::is_directory(given, ignored)) return given;
@@ -68,7 +68,7 @@ void print_blocks(const fs::path& file) {
 
 int run_info(const std::string& given) {
   const fs::path file = file_of(given);
-  const checkpoint::Checkpoint whole = checkpoint::read(file);  // all of it is checked
+  const checkpoint::Checkpoint whole = checkpoint::read(file);  // reading checks the whole file
   const checkpoint::Head& head = whole.head;
   const RunRecord record = run_record_of(head.command, file);
   const state::MidRun& run = head.run;

@@ -18,10 +18,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::atomic<Clock::rep> g_when{0};  // 0: never
+std::atomic<Clock::rep> g_when{0};  // time of the first signal; 0: none came
 static_assert(std::atomic<Clock::rep>::is_always_lock_free, "a signal may come at any moment");
 
-sem_t g_came;  // may be raised in a handler
+sem_t g_came;  // a semaphore, which a signal handler may raise
 
 void interrupt(int) {
   Clock::rep never = 0;
@@ -30,7 +30,7 @@ void interrupt(int) {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-// Nothing but write() and _exit() may be called in a handler.
+// A signal handler may call nothing but write() and _exit().
 void end(std::string_view words) {
   (void)!::write(STDERR_FILENO, words.data(), words.size());
   ::_exit(kInterrupted);
@@ -50,7 +50,7 @@ void end_when_late() {
 
 void handle(void (*handler)(int)) {
   for (const int signal : kSignals)
-    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);  // as under nohup
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);  // stays so under nohup
 }
 
 }  // namespace

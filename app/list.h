@@ -1,4 +1,4 @@
-// What `voxmelt list` prints of what this program has.
+// The functions here print the lists of `voxmelt list` that this program has.
 #pragma once
 
 namespace voxmelt::app {

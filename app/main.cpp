@@ -1,5 +1,5 @@
-// voxmelt: melts solid voxel models and lets them flow. It runs and draws; programs beside it verify and
-// measure.
+// The program voxmelt melts solid voxel models and lets them flow. It runs and draws; programs beside it
+// verify and measure.
 #include <string>
 
 #include "app/commands.h"
@@ -30,7 +30,7 @@ constexpr const char* kIntroduction =
 
 int main(int argc, char** argv) {
   using namespace voxmelt::app;
-  // In the order of --help.
+  // Commands are added in the order of --help.
   const auto add_commands = [&](CommandLine& program) {
     become_program(argc, argv);
     add_run(program);

@@ -1,4 +1,4 @@
-// voxmelt-hardware: the commands of voxmelt that need the hardware model. `voxmelt` starts it.
+// The program voxmelt-hardware has the commands of voxmelt that need the hardware model. `voxmelt` starts it.
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -35,7 +35,7 @@ void list_presets() {
     print("{:<24} {}\n", file.stem().string(), hwmodel::load_preset(file, {}).title);
 }
 
-// For --device, and for --memory and hw.memory.
+// Lists names for --device, and for --memory and hw.memory.
 void list_devices() {
   for (const hwmodel::explore::NamedText& file : hwmodel::explore::device_files())
     print("{:<24} {}\n", file.name, hwmodel::explore::load_device(file.name, {}).title);

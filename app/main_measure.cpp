@@ -1,4 +1,4 @@
-// voxmelt-measure: the commands of voxmelt that measure speed and error. `voxmelt` starts it.
+// The program voxmelt-measure has the commands of voxmelt that measure speed and error. `voxmelt` starts it.
 #include "accuracy/case.h"
 #include "app/commands.h"
 #include "app/print.h"

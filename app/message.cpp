@@ -54,7 +54,7 @@ void open_standard_streams() {
     if (::fcntl(stream, F_GETFD) != -1) continue;
     const bool output = stream == STDOUT_FILENO;
     g_output_was_closed = g_output_was_closed || output;
-    (void)::open(output ? "/dev/full" : "/dev/null", O_RDWR);  // the lowest number that is free: this one
+    (void)::open(output ? "/dev/full" : "/dev/null", O_RDWR);  // takes the lowest free number: `stream`
   }
 }
 

@@ -1,4 +1,4 @@
-// Options that several subcommands share, and how their errors end the program.
+// Several subcommands share these options. Their errors end the program in the same way.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace voxmelt::app {
 
 enum ExitCode : int { kDone = 0, kCheckFailed = 1, kBadInput = 2, kOutOfResources = 3, kInterrupted = 4 };
 
-// A signal ended the command before anything was written: exit code 4.
+// Is thrown when a signal ended the command before anything was written. The exit code is 4.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted; nothing was written") {}
@@ -26,7 +26,7 @@ struct Common {
   std::string scene;
   std::string implementation = "auto";
   std::string visibility = "auto";
-  int threads = 0;  // 0: all of the machine's
+  int threads = 0;  // 0: as many as the machine has
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;
   std::string report;
@@ -36,28 +36,28 @@ struct Common {
 void add_scene(Command command, Common& common);
 void add_common(Command command, Common& common);
 
-// A path, or the name of a scene that came with the program.
+// Loads a scene from a path, or by the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
-// Adds warnings to those of the scene, which the report lists, and says them.
+// Adds warnings to those of the scene, which the report lists, and prints them.
 void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings);
 const step::Implementation& find_implementation(const Common& common);  // throws UsageError
-// Moves the scene's initial state away, because a large one need not be held twice.
+// Makes the simulation. It moves the scene's initial state away, because a large one need not be held twice.
 run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);
 
-// Fails at once if --report could not be written later. `out` is the output folder, empty for none.
-// What a scene reads can be no place of an output: of a file, or of a folder above it. Places that are empty
-// do not count. Throws UsageError.
+// An output may not take the place of a file that a scene reads, nor of a folder above it. Empty places do
+// not count. Throws UsageError.
 struct Output {
   std::string option, place;
 };
 void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs);
-// The same of any file that an option names.
+// Fails at once if the file that an option names could not be written later. `out` is the output folder,
+// empty for none. Throws UsageError.
 void check_place(const std::string& option, const std::string& file, const std::string& out);
 void check_report_place(const Common& common, const std::string& out);
 void write_report(const Common& common, const std::string& text);  // if --report was given
 
-// Folders that are searched for scenes given by name.
+// Lists the folders that are searched for scenes given by name.
 std::vector<std::filesystem::path> scene_folders();
 
 }  // namespace voxmelt::app

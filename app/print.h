@@ -1,6 +1,6 @@
-// Standard output and standard error, written so that nothing is thrown. A reader that has gone and a disk
-// that is full must not end a run. What standard output lost is noticed at the end (standard_output_is_well);
-// a message that nobody can read is lost.
+// Standard output and standard error are written so that nothing is thrown. A reader that has gone and a disk
+// that is full must not end a run. A loss on standard output is noticed at the end (standard_output_is_well).
+// A message that nobody can read is lost.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace voxmelt::app {
 
 void put(std::string_view text);        // to standard output, some time later
 void put_error(std::string_view text);  // to standard error, at once
-int output_error();                     // as errno: why standard output first failed; 0: it has not
+int output_error();                     // errno of the first failure of standard output; 0: none
 
 template <class... Values>
 void print(fmt::format_string<Values...> format, Values&&... values) {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Empty: it is this program.
+// Returns the program that has the command, or nothing if it is this one.
 std::string_view program_of(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "", what = argc > 2 ? argv[2] : "";
   for (const Elsewhere& row : kElsewhere)

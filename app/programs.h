@@ -1,4 +1,4 @@
-// The program is in parts, so that who wants a picture need not build the hardware model. `voxmelt` runs and
+// The program is in parts, so that nobody need build the hardware model for a picture. `voxmelt` runs and
 // draws. Its other commands are programs beside it, which take its place when they are asked for.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace voxmelt::app {
 
 struct Elsewhere {
   std::string_view command, program;
-  std::string_view description;  // of the command, in --help of voxmelt
+  std::string_view description;  // the command's text in --help of voxmelt
 };
 
 inline constexpr std::array kElsewhere{
@@ -23,7 +23,7 @@ inline constexpr std::array kElsewhere{
               "Which hardware is best: all designs by closed form, the best ones simulated and verified"},
 };
 
-// What `list` names, by the program that knows it.
+// Names a list of `list`, and the program that knows it.
 struct ListedElsewhere {
   std::string_view what, program;
 };
@@ -39,8 +39,8 @@ constexpr std::string_view description_of(std::string_view command) {
   return {};
 }
 
-// Becomes the program that has what is asked for; returns where it is this one. Streams and signals must be
-// as the caller gave them. Throws UsageError where that program is not there, and says how to build it.
+// Becomes the program that has the command, and returns only if it is this one. Streams and signals must be
+// as the caller gave them. Throws UsageError if that program is not there, and says how to build it.
 void become_program(int argc, char** argv);
 
 }  // namespace voxmelt::app

@@ -1,4 +1,4 @@
-// The progress line of a long run: steps/s, liquid share, time left. It is shown only on a terminal.
+// The progress line of a long run has steps/s, liquid share and time left. It is shown only on a terminal.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// voxmelt render: one picture, or a turntable.
+// The command `voxmelt render` draws one picture, or a turntable.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -44,7 +44,7 @@ struct Pixel {
   int x = 0, y = 0;
 };
 
-// "X,Y", from the upper left corner of the picture.
+// Reads "X,Y", counted from the upper left corner of the picture.
 Pixel pixel_of(const std::string& text, const scene::Camera& camera) {
   Pixel at;
   const char *begin = text.data(), *end = begin + text.size();
@@ -58,7 +58,7 @@ Pixel pixel_of(const std::string& text, const scene::Camera& camera) {
   return at;
 }
 
-// Depth and normals, as far as they are wanted; returns what to print about them.
+// Writes depth and normals, if they are wanted. Returns the text to print about them.
 std::string write_surface(const RenderOptions& options, const render::Picture& picture,
                           const scene::Camera& camera, render::Setting setting) {
   if (options.depth.empty() && options.normals.empty()) return {};
@@ -82,7 +82,7 @@ std::string suffix_of(const std::string& file) {
   return suffix;
 }
 
-// A picture's name does not promise another kind of picture.
+// Refuses a picture's name that promises another kind of picture.
 void check_is_png(const std::string& option, const std::string& file) {
   const std::string suffix = suffix_of(file);
   if (!file.empty() && !suffix.empty() && suffix != ".png")
@@ -90,7 +90,7 @@ void check_is_png(const std::string& option, const std::string& file) {
         fmt::format("{} {}: error: pictures are written as PNG, not as {}", option, file, suffix));
 }
 
-// Views go into a folder; who names a picture or a film would look for that.
+// Refuses the name of a picture or a film for a folder of views: the user would look for such a file.
 void check_is_folder(const std::string& file) {
   for (const char* const suffix : {".png", ".jpg", ".jpeg", ".gif", ".webp", ".mp4"})
     if (suffix_of(file) == suffix)
@@ -99,7 +99,7 @@ void check_is_folder(const std::string& file) {
           suffix));
 }
 
-// What the options ask for is possible; names that were left open are chosen.
+// Checks that the outputs are possible, and chooses the names that were left open.
 void settle_outputs(RenderOptions& options) {
   if (options.out.empty()) options.out = options.turntable > 0 ? "turntable" : "picture.png";
   if (options.turntable == 0)

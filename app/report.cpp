@@ -28,7 +28,7 @@ json integer(Sum value) {
   return state::to_string(value);
 }
 
-// `held` is what the state holds, by name.
+// Writes a ledger. `held` lists the sums in the state, by name.
 template <template <class> class Terms>
 json ledger_json(const state::LedgerOf<Terms>& ledger,
                  std::initializer_list<std::pair<const char*, Sum>> held, Sum drift) {
@@ -39,7 +39,7 @@ json ledger_json(const state::LedgerOf<Terms>& ledger,
   return result;
 }
 
-// Section 10 of docs/automaton.md: counters of the viscous law.
+// Writes the counters of the viscous law (section 10 of docs/automaton.md).
 json limit_json(const state::LimitCounts<Sum>& limit) {
   return {{"cells", integer(limit.cells)},
           {"limited_cells", integer(limit.limited_cells)},
@@ -58,7 +58,7 @@ json seconds_json(const state::Seconds& steps, const RunSeconds& run) {
   return result;
 }
 
-// Who followed the rays, and how many; rays are not counted by the plain walk.
+// Names the provider that followed the rays, and their number. The plain walk does not count rays.
 json visibility_json(const Common& common, const run::Simulation& simulation) {
   const VisibilityChoice choice = choose_visibility(common.visibility);
   const visibility::Casts casts = simulation.casts();

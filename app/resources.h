@@ -1,4 +1,4 @@
-// Files that came with the program. They are beside it: bin/voxmelt and share/voxmelt/ may be moved together.
+// Some files came with the program. They are beside it: bin/voxmelt and share/voxmelt/ may be moved together.
 // A build folder has links to the source tree in the same places.
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace voxmelt::app {
 
-// share/voxmelt/NAME of this program: `scenes`, or `presets` (hardware configurations). It need not exist.
+// Returns share/voxmelt/NAME of this program: `scenes`, or `presets` (hardware configurations). It need not
+// exist.
 std::filesystem::path resource_folder(const std::filesystem::path& name);
 
 }  // namespace voxmelt::app

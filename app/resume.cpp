@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kIncomplete = ".incomplete";
 
-// The output's place, where a folder beside it was given.
+// Returns the output's place, even if a folder beside it was given.
 fs::path place_named(const fs::path& given) {
   fs::path place = fs::weakly_canonical(fs::absolute(given));
   if (!place.has_filename()) place = place.parent_path();
@@ -43,8 +43,8 @@ struct Candidate {
   std::uint32_t step = 0;
 };
 
-// The folder in which somebody wrote last comes first, and its newest checkpoint. Of a complete output
-// nothing need be done, so its checkpoints do not count.
+// Lists checkpoints, the newest of a folder first. The folder that was last written to comes first. A
+// complete output needs no more work, so its checkpoints do not count.
 std::vector<Candidate> candidates_of(const fs::path& place) {
   std::vector<fs::path> folders = io::leavings_of(place);
   folders.push_back(place.string() + kIncomplete);
@@ -70,17 +70,17 @@ std::vector<Candidate> candidates_of(const fs::path& place) {
   return found;
 }
 
-// Of a checkpoint that lies where runs write it: ", OUTPUT".
+// Returns ", OUTPUT" for a checkpoint that lies in the folder where runs write it, else nothing.
 std::string outputs_folder(const fs::path& file) {
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   if (file.extension() != ".vxc" || folder.filename() != "checkpoints") return {};
   return ", " + seen_from_here(place_named(folder.parent_path()));
 }
 
-// Another run is at work there.
+// Tells if another run is at work in the folder.
 bool is_alive(const fs::path& folder) { return io::FileLock::attempt(folder).held_by_another(); }
 
-// The frames are those that the checkpoint names.
+// Checks that the frames are those that the checkpoint names.
 void check_frames(const Candidate& candidate, const RunRecord& record) {
   for (const checkpoint::FileState& frame : record.frames)
     if (fs::path(frame.name).has_parent_path() ||
@@ -114,8 +114,8 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
                           error == std::errc::no_space_on_device);
 }
 
-// Checkpoints come last: a folder that has some has their frames. Files are replaced whole, never changed, so
-// that two folders can share them.
+// Takes over frames and then checkpoints: a folder that has checkpoints has their frames. Files are replaced
+// whole, never changed, so that two folders can share them.
 void take_over(const Candidate& from, const RunRecord& record, const fs::path& folder) {
   fs::create_directories(folder / "frames");
   for (const checkpoint::FileState& frame : record.frames)
@@ -127,7 +127,7 @@ void take_over(const Candidate& from, const RunRecord& record, const fs::path& f
   io::flush_folder(folder);
 }
 
-// What has changed since the run began changes nothing of it.
+// Lists input files that have changed since the run began. The run does not read them again.
 std::string changed_files(const checkpoint::SceneText& text) {
   std::string changed;
   for (const checkpoint::FileState& file : text.files) {
@@ -155,7 +155,7 @@ std::optional<Resumption> find_run(const fs::path& given) {
   if (std::ranges::any_of(leavings, is_alive))
     throw UsageError(fmt::format("--resume {}: error: a run is at work there", shown));
   if (candidates.empty() && says_complete(place) && std::ranges::none_of(leavings, io::is_unfinished)) {
-    // It may have died just before it cleared up.
+    // The run may have died just before it cleared up.
     fs::remove_all(place / "checkpoints", ignored);
     io::clear_leavings(place);
     return std::nullopt;
@@ -178,7 +178,7 @@ std::optional<Resumption> find_run(const fs::path& given) {
       run.place = place;
       run.folder = std::make_unique<io::OutputFolder>(place, true);
       take_over(candidate, run.record, run.folder->partial());
-      for (const fs::path& left : io::leavings_of(place))  // all that they have is taken over
+      for (const fs::path& left : io::leavings_of(place))  // all their files are taken over
         if (left != run.folder->partial() && !is_alive(left)) io::remove_output(left);
       return run;
     } catch (const checkpoint::Error& error) {
@@ -199,7 +199,7 @@ void clear_after(const fs::path& place, const std::string& id) {
     } catch (const checkpoint::Error&) {
       continue;  // not known to be of this run
     }
-    // Who dies here leaves what the next run removes.
+    // If the process dies after the rename, the next run removes the rest.
     const fs::path aside = place.string() + ".partial-remove";
     io::remove_output(aside);
     fs::rename(incomplete, aside, ignored);

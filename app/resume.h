@@ -1,4 +1,5 @@
-// Finds what a run that was interrupted, killed, or out of room has left, and goes on with it.
+// The functions here find what a run has left that was interrupted, killed, or out of room, and go on with
+// it.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +14,20 @@
 namespace voxmelt::app {
 
 struct Resumption {
-  scene::Scene scene;  // with what a run goes on from
+  scene::Scene scene;  // holds the state from which the run goes on
   checkpoint::SceneText text;
   RunRecord record;
-  std::filesystem::path place;               // of the output
-  std::unique_ptr<io::OutputFolder> folder;  // with the frames that were made, and the checkpoints
+  std::filesystem::path place;               // place of the output
+  std::unique_ptr<io::OutputFolder> folder;  // holds the frames that were made, and the checkpoints
   std::string note;                          // why an older checkpoint had to do, or what changed; or empty
 };
 
-// `given` is the folder as --out named it, or what stands beside it (NAME.partial-..., NAME.incomplete).
-// Nothing where the run is complete. Throws UsageError where there is no checkpoint, checkpoint::Error where
-// none of them is whole.
+// Finds the run. `given` is the folder as --out named it, or one beside it (NAME.partial-...,
+// NAME.incomplete). Returns nothing if the run is complete. Throws UsageError if there is no checkpoint, and
+// checkpoint::Error if none of them is whole.
 std::optional<Resumption> find_run(const std::filesystem::path& given);
 
-// After the output stands in its place, complete: removes its checkpoints, and what was kept of this run
+// Removes the checkpoints of a complete output that stands in its place, and what was kept of this run
 // elsewhere.
 void clear_after(const std::filesystem::path& place, const std::string& id);
 

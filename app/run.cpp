@@ -1,4 +1,4 @@
-// voxmelt run: the main job. Steps, frames, a contact sheet, a film, a report.
+// The command `voxmelt run` does the main job: steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -35,7 +35,7 @@ struct RunOptions {
   std::optional<int> fps;
   std::optional<std::string> checkpoint_every;
   std::string resume;           // folder; empty for a run from the scene's beginning
-  std::set<std::string> given;  // options on the command line, of those that a resumed run may change
+  std::set<std::string> given;  // given options, among those that a resumed run may change
 };
 
 std::string by_chance() {
@@ -68,7 +68,7 @@ PreparedRun prepare(const RunOptions& options) {
   return run;
 }
 
-// Nothing where the run is complete already.
+// Returns nothing if the run is complete already.
 std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   std::optional<Resumption> found = find_run(options.resume);
   if (!found) return std::nullopt;

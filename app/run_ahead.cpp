@@ -14,7 +14,7 @@ run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32
   const std::uint64_t asked = std::uint64_t{scene.first_step} + from;
   if (asked + steps > 0xFFFFFFFFu)
     throw UsageError(fmt::format("error: --from {}: step numbers end at {}", from, 0xFFFFFFFFu));
-  // A checkpoint cannot go back, so it goes on to the next such step.
+  // A checkpoint cannot go back, so it goes on to the next step of visibility.
   const rule::Heat& heat = scene.parameters.heat;
   const std::uint32_t earliest = scene.first_step + (scene.mid_run ? scene.mid_run->steps_done : 0);
   auto until = std::max(static_cast<std::uint32_t>(asked), earliest);

@@ -1,4 +1,4 @@
-// The software runs alone to the step from which the hardware is looked at.
+// The software runs alone to the step from which the hardware is verified.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace voxmelt::app {
 
-// To step `from` of the scene; with radiation to the last step of visibility before, of a checkpoint to the
-// next one. `steps` follow it.
+// Runs to step `from` of the scene. With radiation it stops at the last step of visibility before. A
+// checkpoint beyond that goes on to the next one. `steps` follow it.
 run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32_t from, std::uint32_t steps);
 
 }  // namespace voxmelt::app

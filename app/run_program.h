@@ -1,4 +1,4 @@
-// What every program does around its commands: it prepares streams and signals, and an error becomes a
+// Every program does the same around its commands. It prepares streams and signals, and turns an error into a
 // message and an exit code.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace voxmelt::app {
 
-// Returns the exit code. Who asks for help sees `introduction`. While commands are added, streams and signals
-// are still as the caller gave them.
+// Returns the exit code. `introduction` stands at the head of the help. While commands are added, streams and
+// signals are still as the caller gave them.
 int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
                 int argc, char** argv);
 

@@ -35,7 +35,7 @@ json frames_json(const RunRecord& record) {
   return frames;
 }
 
-// Frames stand in their order, so that none can be missing in the middle.
+// Reads the frames. They stand in their order, so that none can be missing in the middle.
 void read_frames(const json& frames, RunRecord& record, const std::filesystem::path& file) {
   for (const json& frame : frames) {
     record.frames.push_back({frame.at("file").get<std::string>(),

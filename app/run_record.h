@@ -1,4 +1,4 @@
-// What a checkpoint holds beside the automaton's run: the command that runs it, and what it has made.
+// A checkpoint holds more than the automaton's run: the command that runs it, and what that has made.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ namespace voxmelt::app {
 inline constexpr int kMostFramesPerSecond = 240;
 
 struct RunRecord {
-  Common common;  // without its scene
+  Common common;  // scene left empty
   std::uint32_t steps = 0, frame_every = 0;
   std::string size;              // as --size; empty for the scene's
   std::string checkpoint_every;  // as --checkpoint-every; empty for none
   int frames_per_second = 12;    // of the film
-  std::string id;                // of this run, by chance
-  std::string shown_place;       // of its output, as the user named it
+  std::string id;                // random name of this run
+  std::string shown_place;       // place of the output, as the user named it
   std::vector<checkpoint::FileState> frames;
   std::vector<std::uint32_t> frame_steps;
   Watch::Seen seen;
@@ -31,10 +31,10 @@ struct RunRecord {
 };
 
 std::string json_of(const RunRecord& record);
-// Throws checkpoint::Error naming `file`.
+// Reads a record. Throws checkpoint::Error naming `file`.
 RunRecord run_record_of(const std::string& json, const std::filesystem::path& file);
 
-// A frame is due at the first step, every so many steps, and at the last one.
+// Tells if a frame is due: at the first step, every `frame_every` steps, and at the last one.
 bool frame_is_due(const RunRecord& record, std::uint32_t step);
 std::size_t frames_due_before(const RunRecord& record, std::uint32_t step);
 

@@ -29,7 +29,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Does `work`; returns why the disk took no more, or nothing.
+// Does `work`. If the disk is full, returns the error's text, else nothing.
 template <class Work>
 std::string until_full(Work&& work) {
   const auto full = [](const auto& error) {
@@ -95,17 +95,17 @@ class Run {
   }
 
   bool checkpoint() {
-    film_->settle();  // what threads have timed is known then
+    film_->settle();  // then the times of its threads are known
     return checkpoints_.write(record(), *film_, simulation_, watch_.seen(), seconds_now());
   }
   void show(std::uint32_t step) {
     if (film_->is_slow() && checkpoints_.affordable())
-      checkpoint();  // an interrupt may lose this frame: then the run goes on from here
+      checkpoint();  // an interrupt may lose this frame; then the run goes on from here
     film_->add_frame(simulation_.volume(), step);
     watch_.look(simulation_.volume(), step);
   }
 
-  // Until the last step, or an interrupt.
+  // Steps until the last step, or an interrupt.
   void step_on() {
     if (interval_ && begun_at_ == 0) checkpoint();
     if (frame_is_due(record(), begun_at_) &&
@@ -142,7 +142,7 @@ class Run {
   }
 
   int keep_incomplete(const std::string& full) {
-    film_.reset();  // nothing is written beside what follows
+    film_.reset();  // ends its threads, so that nothing is written beside the report
     out().release_reserve();
     io::write_file(out().partial() / "report.json",
                    report_json(run_.scene, common(), simulation_, RunSeconds{}, false));
@@ -183,7 +183,7 @@ class Run {
   std::optional<Film> film_;
   Checkpoints checkpoints_;
   Watch watch_;
-  std::string place_;       // of the output, for messages
+  std::string place_;       // place of the output, for messages
   std::string video_note_;  // why there is no film
   bool resumable_ = true;
 };

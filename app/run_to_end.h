@@ -1,4 +1,4 @@
-// The run of `voxmelt run`, once it is prepared: steps, frames, checkpoints, outputs.
+// A prepared run of `voxmelt run` makes its steps, frames, checkpoints and outputs.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::app {
 
-// A run that can begin, or go on.
+// Holds a run that can begin, or go on.
 struct PreparedRun {
   scene::Scene scene;
   checkpoint::SceneText text;
@@ -19,8 +19,8 @@ struct PreparedRun {
   std::unique_ptr<io::OutputFolder> out;
 };
 
-// From where it is to its end, or to a signal, or until the disk is full. `start` is when the command began.
-// Returns the exit code.
+// Runs to the end, or to a signal, or until the disk is full. `start` is when the command began. Returns the
+// exit code.
 int run_to_end(PreparedRun run, std::chrono::steady_clock::time_point start);
 
 }  // namespace voxmelt::app

@@ -1,4 +1,4 @@
-// Commands that a user can paste into a shell.
+// Some commands are printed for a user to paste into a shell.
 #pragma once
 
 #include <string>

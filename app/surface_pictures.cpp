@@ -9,7 +9,7 @@
 namespace voxmelt::app {
 namespace {
 
-constexpr int kZeroNormal = 1 << 15;  // what stands for 0
+constexpr int kZeroNormal = 1 << 15;  // the number that stands for 0
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Pictures of numbers: how far the surface is, and where it faces (docs/output.md).
+// These pictures of numbers tell how far the surface is, and which way it faces (docs/output.md).
 #pragma once
 
 #include "kernel/scene/look.h"

@@ -1,4 +1,4 @@
-// voxmelt verify: the hardware model in lock-step with the software.
+// The command `voxmelt verify` runs the hardware model in lock-step with the software.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -55,7 +55,7 @@ std::uint32_t plant_step(const VerifyCommand& command, std::uint32_t first_step)
 
 namespace {
 
-// --set reaches both: hw.* is the hardware's, everything else the scene's.
+// Splits the values of --set: hw.* is the hardware's, everything else the scene's.
 void split_sets(VerifyCommand& command) {
   std::vector<std::string> scene;
   for (std::string& set : command.common.sets)
@@ -70,7 +70,7 @@ int run_picture(VerifyCommand command) {
   return verify_caster(command, scene, ahead);
 }
 
-// What is asked must fit the machine that is asked for. All that one of them does not do is refused here.
+// Refuses every option that the chosen machine does not have.
 void check_asked(const VerifyCommand& command) {
   const bool picture = command.picture.asked, machine = command.picture.machine;
   const auto refuse = [](bool asked, const char* option, const char* why) {

@@ -1,5 +1,5 @@
-// What a user asks of `voxmelt verify`, for each of its three machines: the pipeline, the ray caster
-// (--picture), and both on one memory (--machine).
+// The command holds the wishes of a user of `voxmelt verify`, for each of its three machines: the pipeline,
+// the ray caster (--picture), and both on one memory (--machine).
 #pragma once
 
 #include <cstdint>
@@ -34,31 +34,31 @@ int verify_pipeline(VerifyCommand command);
 int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const run::Simulation& state);
 int verify_whole_machine(VerifyCommand command);
 
-// The file of --hw.
+// Finds the file of --hw.
 std::filesystem::path find_preset(const std::string& given);
 // Reads --from.
 scene::Scene load_beginning(VerifyCommand& command);
-// Throws UsageError where its tiles are too narrow for the scene.
+// Throws UsageError if its tiles are too narrow for the scene.
 void check_tile(const scene::Scene& scene, const hwmodel::Configuration& configuration);
-// The first step in which a planted fault may strike, where the user says none.
+// Returns the first step in which a planted fault may strike, if the user names none.
 std::uint32_t plant_step(const VerifyCommand& command, std::uint32_t first_step);
 
 std::string name_of(const scene::Scene& scene);
-// What must be typed to see a picture again, but for its pixel.
+// Returns the command that shows a picture again, but for its pixel.
 std::string picture_again(const VerifyCommand& command, const std::string& scene);
-// The same of the picture that --shrink makes, but for its pixels, its setting and what is plainer.
+// Does the same for the picture that --shrink makes, but for its pixels, its setting and what is plainer.
 std::string small_picture_again(const VerifyCommand& command);
 
-// The folder of a replay; a replay extends its scene, so it must not take that scene's place.
+// Returns the folder of a replay. A replay extends its scene, so it must not take that scene's place.
 std::filesystem::path replay_place(const VerifyCommand& command, const scene::Scene& scene);
 void check_replay_place(const VerifyCommand& command, const scene::Scene& scene);
 void write_replay(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report);
 
-// What came of the planted fault.
+// Says if the planted fault was found.
 void print_plant(const hwmodel::VerifyReport& report);
 
-// A full disk must not hide a difference that was found.
+// Writes, and reports a full disk without ending: that must not hide a difference that was found.
 template <class Write>
 bool try_writing(Write&& write) {
   try {

@@ -1,4 +1,5 @@
-// voxmelt verify --machine: the pipeline and the ray caster on one memory, in lock-step with the software.
+// The command `voxmelt verify --machine` runs the pipeline and the ray caster on one memory, in lock-step
+// with the software.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,8 +31,8 @@
 namespace voxmelt::app {
 namespace {
 
-// What the software takes for the same steps and pictures: seconds of this processor, one thread, for all of
-// them; the best of several runs.
+// Holds the software's time for the same steps and pictures. It is in seconds of one thread of this processor
+// for all of them, in the best of several runs.
 struct Software {
   double steps = 0, update = 0, draw = 0;
   double total() const { return steps + update + draw; }
@@ -50,7 +51,7 @@ Software measure_software(const scene::Scene& scene, const scene::Camera& camera
     render::Picture picture;
     Software took;
     const auto time = [](double& sum, const auto& work) {
-      const std::clock_t begin = std::clock();  // of the processor: the machine may have other work
+      const std::clock_t begin = std::clock();  // processor time, as the machine may have other work
       work();
       sum += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
@@ -72,7 +73,7 @@ Software measure_software(const scene::Scene& scene, const scene::Camera& camera
   return best;
 }
 
-// The paper's row of a scene, or of its sister under the viscous law; null: it has none.
+// Returns the paper's row of a scene, or of its sister under the viscous law. It is null if there is none.
 const measure::PaperRow* paper_row(std::string_view scene) {
   for (const measure::PaperRow& row : measure::kPaperTable)
     if (scene == row.scene || scene == std::string(row.scene) + "_viscous") return &row;
@@ -89,7 +90,7 @@ std::string verdict_of(const hwmodel::MachineReport& report) {
   return text + hwmodel::raycast::verdict_text(report.pictures);
 }
 
-// The planted fault, of either machine.
+// Chooses the planted fault, of either machine.
 void plant(hwmodel::MachineOptions& options, const VerifyCommand& command, std::uint32_t first_step) {
   if (command.plant.empty()) return;
   const hwmodel::FaultInfo* stream = hwmodel::find_fault(command.plant);
@@ -155,7 +156,7 @@ SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& 
 
 bool struck(const hwmodel::MachineReport& report) { return report.steps.strike || report.pictures.strike; }
 
-// Simulates, prints and writes what came of it.
+// Simulates, prints, and writes the results.
 hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Scene& scene,
                                    const run::Simulation& ahead, const hwmodel::Preset& preset) {
   const PictureChoice& choice = command.picture;

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "AZIMUTH,ELEVATION" in degrees.
+// Reads "AZIMUTH,ELEVATION" in degrees.
 void set_view(scene::Camera& camera, const std::string& view) {
   const char *begin = view.data(), *end = begin + view.size();
   const auto [comma, bad_azimuth] = std::from_chars(begin, end, camera.azimuth);
@@ -38,7 +38,7 @@ void set_view(scene::Camera& camera, const std::string& view) {
     throw UsageError(fmt::format("error: --view {}: want AZIMUTH,ELEVATION in degrees", view));
 }
 
-// "X,Y" or "X,Y,WxH" in pixels.
+// Reads "X,Y" or "X,Y,WxH" in pixels.
 hwmodel::raycast::Window part_of(const std::string& pixel, const scene::Camera& camera) {
   std::int32_t x = 0, y = 0, wide = 1, high = 1;
   const char *at = pixel.data(), *end = at + pixel.size();

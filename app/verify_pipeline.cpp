@@ -1,4 +1,4 @@
-// voxmelt verify of the pipeline: simulates, prints, and writes what came of it.
+// The pipeline's part of `voxmelt verify` simulates, prints, and writes the results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,6 @@
 
 namespace voxmelt::app {
 
-// What came of the planted fault.
 void print_plant(const hwmodel::VerifyReport& report) {
   const auto& at = *report.strike;
   print("planted: {}, step {}, cell ({}, {}, {}); {}\n", at.where, at.step, at.x, at.y, at.z,
@@ -34,7 +33,7 @@ void print_plant(const hwmodel::VerifyReport& report) {
 
 namespace {
 
-// In one line.
+// Gives the verdict in one line.
 std::string quiet_verdict(const hwmodel::VerifyReport& report) {
   if (report.mismatch == nullptr)
     return fmt::format("{} cells compared: no difference; digest {:016x}{}\n", report.compared_cells,
@@ -71,7 +70,7 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   if (report.strike) print_plant(report);
 }
 
-// What is verified, and where what comes of it goes.
+// Holds what is verified, and the command that says where results go.
 struct Job {
   const VerifyCommand& command;
   hwmodel::Preset preset;
@@ -133,11 +132,11 @@ void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hw
                         job.preset.configuration);
 }
 
-// Of a difference: what of it can be seen again, and how.
+// Writes what shows a difference again: the replay, and with --shrink a small case.
 void write_difference(const Job& job, hwmodel::VerifyOptions options, const hwmodel::VerifyReport& report) {
   try_writing([&] { write_replay(job.command, job.scene, report); });
   if (job.command.shrink.empty()) return;
-  options.memory = nullptr;  // what is cut has other streams
+  options.memory = nullptr;  // the small case has other streams
   try_writing([&] {
     const std::string small = make_small(job.command, job.scene, options, report);
     if (!job.command.common.quiet) print("{}", small);
@@ -170,7 +169,7 @@ int verify_pipeline(VerifyCommand command) {
   hwmodel::VerifyReport report =
       hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
   if (memory.dram) {
-    ahead.begin_step();  // its irradiance
+    ahead.begin_step();  // computes the irradiance of the step
     hwmodel::explore::predict_on_memory(report, design, c, memory, ahead.volume(), ahead.irradiance());
   }
 

@@ -1,4 +1,4 @@
-// What a user types to see a difference again, and the state from which it can be seen.
+// The functions here give the command that shows a difference again, and write the state that it needs.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ std::string who_computes(const Common& common) {
   return text;
 }
 
-// Everything that the user must type to see it again.
+// Returns everything that the user must type to see it again.
 std::string again(const VerifyCommand& command, const std::string& scene,
                   const hwmodel::VerifyReport& report) {
   const std::uint32_t step = report.mismatch->step;
@@ -39,7 +39,7 @@ std::string again(const VerifyCommand& command, const std::string& scene,
 
 }  // namespace
 
-// Everything that the user must type to see a picture again, but for its pixel.
+// Returns everything that the user must type to see a picture again, but for its pixel.
 std::string picture_again(const VerifyCommand& command, const std::string& scene) {
   const PictureChoice& picture = command.picture;
   std::string text = fmt::format("voxmelt verify {} --picture", shell_word(scene));

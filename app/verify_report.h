@@ -1,4 +1,5 @@
-// What `voxmelt verify` reports of a run: JSON for --report, and for --html the page that is drawn from it.
+// A run of `voxmelt verify` is reported as JSON for --report, and for --html as the page that is drawn from
+// it.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,13 @@
 
 namespace voxmelt::app {
 
-// Where a report goes; nowhere where neither is given.
+// Names the places of a report. If neither is given, nothing is written.
 struct ReportPlaces {
   const Common& common;     // has --report
   const std::string& html;  // --html; empty for none
 };
 
-// `name` is the scene's.
+// Writes the report of a pipeline. `name` is the scene's.
 void write_pipeline_report(const ReportPlaces& places, const std::string& name,
                            const hwmodel::VerifyReport& report, const hwmodel::Design& design,
                            const hwmodel::Configuration& configuration);
@@ -28,7 +29,7 @@ struct Drawn {
   std::string scene;
   int width = 0, height = 0;
 };
-// How a difference is seen again: --pixel, and whether it fails alone.
+// Says how a difference is seen again: --pixel, and if it fails alone.
 struct SeenAgain {
   std::string pixel;
   bool fails_alone = false;
@@ -38,7 +39,7 @@ void write_picture_report(const ReportPlaces& places, const Drawn& drawn, std::u
                           const hwmodel::raycast::Configuration& configuration,
                           const std::optional<SeenAgain>& again);
 
-// The software's rates beside the machine's, on one thread of this processor.
+// Holds the software's rates beside the machine's, on one thread of this processor.
 struct SoftwareRates {
   std::string implementation;
   double steps = 0, updates = 0, pictures = 0, frames = 0;  // a second

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSeconds = 40;  // of the search
+constexpr double kSeconds = 40;  // time limit of the search
 
 std::vector<std::string> overrides_of(const Common& common) {
   std::vector<std::string> sets = common.sets;
@@ -30,7 +30,7 @@ std::vector<std::string> overrides_of(const Common& common) {
   return sets;
 }
 
-// What a user types to see it.
+// Returns the command that shows the small case.
 std::string typed(const VerifyCommand& command, const hwmodel::Case& small) {
   std::string text = fmt::format("voxmelt verify {} --steps {}", shell_word(command.shrink), small.steps);
   for (const hwmodel::HwKey& key : hwmodel::kHwKeys)

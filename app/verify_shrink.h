@@ -1,4 +1,4 @@
-// voxmelt verify --shrink: a run that fails, made small, as a scene file.
+// The option `voxmelt verify --shrink` makes a run that fails small, and writes it as a scene file.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace voxmelt::app {
 
-// Writes the scene, and a folder with its fields beside it. Gives what is left in one sentence, and what to
-// type to see it fail.
+// Writes the scene, and a folder with its fields beside it. Returns what is left in one sentence, and the
+// command that shows it fail.
 std::string make_small(const VerifyCommand& command, const scene::Scene& scene,
                        const hwmodel::VerifyOptions& options, const hwmodel::VerifyReport& report);
-// The same of a picture.
+// Does the same for a picture.
 std::string make_small_picture(const VerifyCommand& command, const scene::Scene& scene,
                                const hwmodel::raycast::PictureInput& input,
                                const hwmodel::raycast::PictureOptions& options,

@@ -1,4 +1,4 @@
-// voxmelt verify --size-fifos: the depths of channels, found before the run that verifies them.
+// The option `voxmelt verify --size-fifos` finds the depths of channels before the run that verifies them.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace voxmelt::app {
 
-// What is to be verified.
+// Holds what is to be verified.
 struct VerifiedStream {
   const rule::Parameters& parameters;
   const state::Volume& volume;
@@ -17,7 +17,7 @@ struct VerifiedStream {
   std::uint32_t steps;
 };
 
-// Throws UsageError where the configuration names a channel that the machine does not have.
+// Throws UsageError if the configuration names a channel that the machine does not have.
 void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset);
 
 // Finds them, prints them, writes them to `file`, and puts them into the preset. Returns the cycles of the
@@ -25,7 +25,7 @@ void check_channels(const VerifiedStream& stream, const hwmodel::Preset& preset)
 std::int64_t size_channels(const VerifiedStream& stream, const Common& common, const std::string& file,
                            hwmodel::Preset& preset);
 
-// Says whether the verified run took as many.
+// Says if the verified run took as many.
 bool check_sized(std::int64_t wanted, std::int64_t cycles);
 
 }  // namespace voxmelt::app

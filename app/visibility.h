@@ -1,4 +1,4 @@
-// Who follows the rays of heat sources: --visibility, out of the providers of all rooms.
+// The option --visibility chooses who follows the rays of heat sources, out of the providers of all rooms.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 namespace voxmelt::app {
 
 struct VisibilityChoice {
-  std::string name;    // of a provider
+  std::string name;    // name of a provider
   std::string reason;  // for the report
 };
 
 void add_visibility(Command command, Common& common);
-// Throws UsageError where this build does not have what was asked for.
+// Throws UsageError if this build does not have what was asked for.
 VisibilityChoice choose_visibility(const std::string& asked);
 std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads);
 

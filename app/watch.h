@@ -1,4 +1,4 @@
-// What goes wrong in a run without any error: found while it runs, said at its end.
+// The watch finds what goes wrong in a run without any error, and says it at the end.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace voxmelt::app {
 
 class Watch {
  public:
-  // What it has seen: the amount of such a cell, or two cells.
+  // Holds what it has seen: the amount of such a cell, or two cells.
   struct Seen {
     int largest = 0;
     int x = 0, y = 0, z = 0;
     std::uint32_t step = 0;
   };
   Watch() = default;
-  explicit Watch(const Seen& seen) : seen_(seen) {}  // by an earlier part of the run
+  explicit Watch(const Seen& seen) : seen_(seen) {}  // seen by an earlier part of the run
   const Seen& seen() const { return seen_; }
 
   // Looks for liquid that is compressed in the open: more than two cells in one, and nothing above it but the
-  // border. Where a vent brings more than flows away, its column reaches the top of the grid and fills up.
+  // border. If a vent brings more than flows away, its column reaches the top of the grid and fills up.
   void look(const state::Volume& volume, std::uint32_t step);
 
   std::vector<std::string> warnings(const run::Simulation& simulation) const;

@@ -1,10 +1,10 @@
-// beside_vtk: our half of bench/compare_vtk.py.
+// The program beside_vtk is voxmelt's half of bench/compare_vtk.py.
 //
 //   beside_vtk SCENE FIELD_FILE
 //
-// Melts a scene to the middle of its melt and writes the field that is drawn: 16 bits a cell, x fastest. It
-// prints a line of JSON with grid, camera and our errors. For every line that comes in, it draws, and prints
-// a line with the least milliseconds so far, on one thread.
+// It melts a scene to the middle of its melt and writes the field that is drawn: 16 bits a cell, x fastest.
+// It prints a line of JSON with grid, camera and voxmelt's errors. For every line that comes in, it draws,
+// and prints a line with the least milliseconds so far, on one thread.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -30,7 +30,7 @@
 namespace voxmelt {
 namespace {
 
-constexpr int kThreads = 2;  // for what is not timed
+constexpr int kThreads = 2;  // for work that is not timed
 constexpr render::Setting kTimed[] = {render::Setting::fast, render::Setting::normal};
 
 struct Drawn {
@@ -53,7 +53,8 @@ struct Drawn {
   render::Picture picture;
 };
 
-// From the picture of the same definition in double with the same samples: what steps and roundings cost.
+// Returns the errors against the picture of the same definition in double with the same samples. They are the
+// cost of steps and roundings.
 std::vector<double> errors(const Drawn& drawn) {
   const render::PictureScene data(drawn.field, drawn.scene.look, drawn.scene.light, drawn.scene.terrain);
   const accuracy::ExactScene scene(data);

@@ -1,4 +1,4 @@
-// Single phases of the dense workloads, for Google Benchmark.
+// The program times single phases of the dense workloads, for Google Benchmark.
 #include <cstddef>
 #include <string>
 

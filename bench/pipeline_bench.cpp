@@ -1,5 +1,6 @@
-// How fast the hardware model simulates: whole showcase scenes in the middle of their melt, one time step per
-// pass, one core, nothing compared while the clock runs. Each result is checked against the reference first.
+// The program tells how fast the hardware model simulates whole showcase scenes in the middle of their melt.
+// It runs one time step per pass on one core, and compares nothing while the clock runs. Each result is
+// checked against the reference first.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -19,13 +20,13 @@ namespace {
 
 struct MidMelt {
   const char* scene;
-  std::uint32_t step;  // of visibility, where there is radiation
+  std::uint32_t step;  // a step of visibility if there is radiation
 };
 constexpr MidMelt kScenes[] = {
     {"cello", 1048}, {"lava", 1200}, {"cello_viscous", 1048}, {"lava_viscous", 1200}};
 constexpr int kLanes[] = {1, 4, 16};
 
-// A state, and what the next step has to make of it.
+// Holds a state, and the result that the next step must have.
 struct Prepared {
   rule::Parameters parameters;
   state::Volume before;

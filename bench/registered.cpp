@@ -51,7 +51,7 @@ void add(const Benchmark& one) {
   benchmark::RegisterBenchmark(one.name.c_str(), [one](benchmark::State& state) { time_it(state, one); })
       ->UseManualTime()
       ->Unit(benchmark::kMillisecond)
-      ->Iterations(9);  // one step each; a fresh simulation is made for each, outside of the clock
+      ->Iterations(9);  // one step each, on a fresh simulation made outside of the clock
 }
 
 void register_workloads(
@@ -76,8 +76,8 @@ void register_workloads(
 int run(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  // Debian's library says "Library was built as DEBUG": that is about its own few functions, not about what
-  // is timed.
+  // Debian's library says "Library was built as DEBUG": that is about its own few functions, not about the
+  // timed code.
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return wrong ? 1 : 0;

@@ -1,5 +1,5 @@
-// What the benchmark programs share: their workloads, names that are coordinates, and the check of each
-// result before its time counts.
+// The benchmark programs share their workloads, names that are coordinates, and the check of each result
+// before its time counts.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ struct Benchmark {
   std::string name;
   measure::Workload workload;
   measure::Candidate candidate;
-  std::function<double(const measure::Seconds&)> seconds;  // of what is timed, per step
-  double bytes_per_cell = 0;                               // that the definition needs
+  std::function<double(const measure::Seconds&)> seconds;  // the timed part, per step
+  double bytes_per_cell = 0;                               // needed by the definition
 };
 
 std::string coordinates(const measure::Workload& workload, const measure::Candidate& candidate);
@@ -25,6 +25,6 @@ void add(const Benchmark& benchmark);
 void register_workloads(
     const std::function<void(const measure::Workload&, const measure::Candidate&)>& visit);
 
-int run(int argc, char** argv);  // exit code 1 where a result was wrong
+int run(int argc, char** argv);  // exit code 1 if a result was wrong
 
 }  // namespace voxmelt::bench

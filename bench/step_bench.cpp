@@ -1,5 +1,5 @@
-// Whole steps of the dense and the sleeping workloads, for Google Benchmark: its filters, repetitions and
-// comparison tools. Ratios to the paper's program, and the roofs, are in `voxmelt bench`.
+// The program times whole steps of the dense and the sleeping workloads, for the filters, repetitions and
+// comparison tools of Google Benchmark. Ratios to the paper's program, and the roofs, are in `voxmelt bench`.
 #include "bench/registered.h"
 
 int main(int argc, char** argv) {

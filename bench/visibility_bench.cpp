@@ -1,7 +1,7 @@
-// Rays by each caster on one thread: millions in a second of its processor time. A ball with pits, by slices:
-// `rays` are all rays of its surface towards three points, `sky` leave its upper faces for the open sky.
-// `prepare` is what it takes to build what a caster keeps, `refit` what it takes after some cells have
-// melted.
+// The program times rays by each caster on one thread: millions in a second of its processor time. The scene
+// is a ball with pits, by slices. `rays` are all rays of its surface towards three points, and `sky` leave
+// its upper faces for the open sky. `prepare` is the time to build what a caster keeps. `refit` is the time
+// to bring it up to date after some cells have melted.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 using visibility::Cell;
 using visibility::Ray;
 
-// Of this thread.
+// Returns the processor time of this thread.
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -93,7 +93,8 @@ std::vector<Ray> all_rays(const visibility::Opaque& opaque, const rule::Position
   return rays;
 }
 
-// From the upper face of each cell that has one, in four directions of the upper half, out of the grid.
+// Sends rays from the upper face of each cell that has one, in four directions of the upper half, out of the
+// grid.
 std::vector<Ray> sky_rays(const visibility::Opaque& opaque) {
   const state::Grid& g = opaque.grid();
   const std::int64_t far = std::int64_t{32} * g.x;
@@ -144,7 +145,7 @@ struct World {
 };
 
 World& world(int n) {
-  static std::unique_ptr<World> last;  // one at a time
+  static std::unique_ptr<World> last;  // one world is kept at a time
   if (last == nullptr || last->volume.grid.x != n) last = std::make_unique<World>(n);
   return *last;
 }
@@ -169,7 +170,7 @@ void cast(benchmark::State& state, const Case& one,
   double least = std::numeric_limits<double>::infinity();
   for ([[maybe_unused]] auto _ : state) {
     const double start = processor_seconds();
-    for (std::size_t first = 0; first < fates.size(); first += 1024) {  // as KeptRays does
+    for (std::size_t first = 0; first < fates.size(); first += 1024) {  // KeptRays casts as many at once
       const std::size_t count = std::min<std::size_t>(1024, fates.size() - first);
       caster->cast(w.opaque, {rays.data() + first, count}, {fates.data() + first, count});
     }

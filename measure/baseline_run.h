@@ -1,9 +1,9 @@
-// The paper's program on a workload, timed like ours: the same state, as many steps before and while the
-// clock runs.
+// The paper's program runs on a workload and is timed like voxmelt: the same state, as many steps before and
+// while the clock runs.
 //
 // Its flow is gravity + spread + excess of the paper's law, and its heat includes melting. It does not know
-// the viscous law. For such a workload it runs the paper's law on the same state: the parameters' paper
-// part, liquid with full energy.
+// the viscous law. For such a workload it runs the paper's law on the same state: the parameters' paper part,
+// liquid with full energy.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace voxmelt::measure {
 
 class BaselineRuns {
  public:
-  // Nothing where the baseline cannot run the workload's parameters.
+  // Returns nothing if the baseline cannot run the workload's parameters.
   static std::optional<BaselineRuns> of(const Workload& workload);
 
   Steps plain() const;

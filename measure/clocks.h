@@ -1,4 +1,4 @@
-// How long something takes.
+// The clocks here tell how long something takes.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace voxmelt::measure {
 
-enum class Clock { wall, thread, process };  // processor time of this thread, or of all
+enum class Clock { wall, thread, process };  // wall-clock time, or processor time of this thread or of all
 
 inline double now(Clock clock) {
   if (clock == Clock::wall)
@@ -16,7 +16,7 @@ inline double now(Clock clock) {
   return static_cast<double>(at.tv_sec) + 1e-9 * static_cast<double>(at.tv_nsec);
 }
 
-// Work on one thread is timed by its processor time: what other programs do meanwhile does not count.
+// Work on one thread is timed by its processor time: work of other programs meanwhile does not count.
 inline Clock clock_of(int threads) { return threads == 1 ? Clock::thread : Clock::wall; }
 
 template <class Task>
@@ -26,7 +26,7 @@ double seconds_for(Clock clock, const Task& task) {
   return now(clock) - begin;
 }
 
-// The least of many.
+// Keeps the least of many values.
 class Least {
  public:
   void add(double value) {

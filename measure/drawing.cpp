@@ -30,7 +30,7 @@ struct Variant {
   int threads;
 };
 
-// The field and the picture of one scene, kept up to date by whichever variant is asked.
+// Keeps the field and the picture of one scene, updated by whichever variant is asked.
 class Kept {
  public:
   explicit Kept(const scene::Scene& scene) : scene_(scene) {}
@@ -69,7 +69,7 @@ class Kept {
 
 using Pictures = std::array<render::Image, kSettings.size()>;
 
-// The pictures of the second state that everybody must draw.
+// Holds the pictures of the second state that every variant must draw.
 struct Expected {
   Expected(const state::Volume& after, const scene::Scene& scene, int threads) : fresh(scene) {
     fresh.update(after, {drawer_of(cpu::kInstructionSets.front().set), 1});

@@ -1,5 +1,5 @@
-// What a picture of a scene costs, part by part: the field that is drawn, light and bricks, the drawing, and
-// the PNG file. The bytes of every instruction set are checked before it is timed.
+// A picture of a scene is timed part by part: the field that is drawn, light and bricks, the drawing, and the
+// PNG file. The bytes of every instruction set are checked before it is timed.
 #pragma once
 
 #include <array>
@@ -17,24 +17,24 @@
 namespace voxmelt::measure {
 
 inline constexpr int kPictureSide = 512;  // pixels
-inline constexpr int kPictureSteps = 3;   // between two pictures
+inline constexpr int kPictureSteps = 3;   // steps between two pictures
 inline constexpr std::array kSettings{render::Setting::fast, render::Setting::normal, render::Setting::best};
 inline constexpr std::array<const char*, kSettings.size()> kSettingNames{"fast", "normal", "best"};
 using PerSetting = std::array<double, kSettings.size()>;
 
-// Who draws: the packets, and the loops of a processor that has this set.
+// A drawer has the packets, and the loops of a processor that has this set.
 struct Drawer {
   cpu::InstructionSet set;
   const render::Packets* packets;
 };
 Drawer drawer_of(cpu::InstructionSet set);
 
-// Seconds. Processor time on one thread, time of the clock on more.
+// Times are in seconds: processor time on one thread, time of the clock on more.
 struct DrawingTiming {
   cpu::InstructionSet set{};
   int threads = 1;
-  double field = 0, light = 0;  // after kPictureSteps steps; light: and bricks
-  double unchanged = 0;         // both, after none
+  double field = 0, light = 0;  // after kPictureSteps steps; `light` includes bricks
+  double unchanged = 0;         // field and light, after no step
   PerSetting draw{};
 };
 
@@ -42,8 +42,8 @@ struct Drawing {
   std::string workload;
   state::Grid grid;
   int rounds = 0;
-  int bricks = 0;                                     // of the field that an update filters
-  std::array<std::int64_t, kSettings.size()> rays{};  // of a picture, as far as they may meet something
+  int bricks = 0;                                     // bricks of the field that an update filters
+  std::array<std::int64_t, kSettings.size()> rays{};  // rays of a picture, as far as they may meet something
   double encode = 0;                                  // seconds, for the picture at `normal`
   std::size_t png_bytes = 0;
   std::vector<DrawingTiming> timings;
@@ -53,11 +53,11 @@ struct Drawing {
   }
 };
 
-// The scene's camera, for a square picture.
+// Returns the scene's camera, for a square picture.
 scene::Camera square_camera(scene::Camera camera, int side);
 
-// Throws Mismatch if an updated field is not that of a fresh one, or if a picture differs from another one of
-// the same state, or, at a quarter of the size, from that of the plain painter.
+// Throws Mismatch if an updated field is not that of a fresh one. It also throws if a picture differs from
+// another one of the same state, or, at a quarter of the size, from that of the plain painter.
 Drawing measure_drawing(const Workload& workload, const scene::Scene& scene,
                         const std::vector<Drawer>& drawers, const std::vector<int>& threads,
                         const Rounds& rounds);

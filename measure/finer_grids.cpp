@@ -18,7 +18,7 @@ struct Times {
   Least fast, normal;
 };
 
-// Its field is not kept: on the finest grid it takes gigabytes.
+// The field is not kept: on the finest grid it takes gigabytes.
 render::Picture picture_of(const state::Volume& volume, const scene::Scene& scene, int threads) {
   render::DensityField field;
   field.update(volume, scene.look, scene.terrain, threads);

@@ -1,4 +1,4 @@
-// The loops, for any instruction set: enough independent chains to keep every unit busy.
+// The loops work for any instruction set. They have enough independent chains to keep every unit busy.
 #pragma once
 
 #include <cstddef>

@@ -26,8 +26,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// All threads start together, and a trial ends when the last one is done. Returns the best rate.
-// `piece(thread)` does one piece of work and returns how much that was.
+// Returns the best rate of several trials. All threads start together, and a trial ends when the last one is
+// done. `piece(thread)` does one piece of work and returns its amount.
 double best_rate(int threads, const Rounds& trials, const std::function<double(int)>& piece) {
   double best = 0;
   const RoundClock clock(trials);
@@ -35,7 +35,7 @@ double best_rate(int threads, const Rounds& trials, const std::function<double(i
     std::barrier ready(threads);
     std::vector<double> rates(static_cast<std::size_t>(threads));
     const auto work = [&](int thread) {
-      piece(thread);  // warm
+      piece(thread);  // warms up
       ready.arrive_and_wait();
       const Clock::time_point start = Clock::now();
       double done = 0, seconds = 0;
@@ -109,7 +109,7 @@ std::size_t Machine::rounded(std::size_t footprint) {
 }
 
 Bandwidth Machine::measure(std::size_t footprint, int threads) const {
-  // One block of whole cache lines; every thread has its own part of it.
+  // There is one block of whole cache lines; every thread has its own part of it.
   std::vector<Line> block(footprint / sizeof(Line));
   const std::size_t part = block.size() / static_cast<std::size_t>(threads) / 2 * 2;
   const auto own = [&](int thread) { return block.data() + static_cast<std::size_t>(thread) * part; };

@@ -1,7 +1,7 @@
-// What this machine can do, measured in the same run as everything that is compared with it.
+// The rates of this machine are measured in the same run as everything that is compared with them.
 //
 // Rates are the best of many short trials, as times are minima. A roof that a busy machine lowered would
-// flatter us.
+// flatter the program.
 #pragma once
 
 #include <cstddef>
@@ -16,30 +16,31 @@ namespace voxmelt::measure {
 
 struct MachineText {
   std::string processor;
-  int threads = 1;  // of the processor
+  int threads = 1;  // threads of the processor
   std::size_t l1_bytes = 0, l2_bytes = 0, l3_bytes = 0, memory_bytes = 0;
 };
 MachineText describe_machine();
-double load_average();  // of the last minute: threads of the whole system that run or want to
+double load_average();  // mean of the last minute: threads of the whole system that run or want to
 
-// Bytes per second, read and written bytes both counted.
+// Counts bytes per second, read and written bytes both.
 struct Bandwidth {
   double copy = 0;    // memcpy from one half of the footprint to the other
   double update = 0;  // every number read, changed and written in place: no cache line is fetched in vain
   double best() const { return copy > update ? copy : update; }
 };
 
-// Lanes of 16 bits per second, all threads together.
+// Counts lanes of 16 bits per second, all threads together.
 struct LaneRates {
   double multiply = 0, add = 0;
 };
 
 class Machine {
  public:
-  // `trials`: of each rate, a millisecond each.
+  // The argument `trials` sets the number of trials of each rate, a millisecond each.
   explicit Machine(const Rounds& trials = {.fewest = 5, .seconds = 0.2}) : trials_(trials) {}
 
-  // `threads` threads share `footprint` bytes, rounded to a power of two from 256 KiB to 512 MiB.
+  // Measures `threads` threads that share `footprint` bytes, rounded to a power of two from 256 KiB to 512
+  // MiB.
   Bandwidth bandwidth(std::size_t footprint, int threads);
   LaneRates lane_rates(cpu::InstructionSet set, int threads);
 
@@ -49,7 +50,7 @@ class Machine {
 
   static std::size_t rounded(std::size_t footprint);
 
-  // All that has been measured so far.
+  // Returns all that has been measured so far.
   const std::map<std::pair<std::size_t, int>, Bandwidth>& bandwidths() const { return bandwidths_; }
   const std::map<std::pair<cpu::InstructionSet, int>, LaneRates>& rates() const { return rates_; }
 

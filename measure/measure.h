@@ -1,8 +1,8 @@
-// Times workloads, and the paper's program on the same state in the same minutes. The result of everything
-// that is timed is checked.
+// The functions here time workloads, and the paper's program on the same state in the same minutes. Every
+// timed result is checked.
 //
 // A time is a minimum: every timed step is repeated from the same state, and each of its phases counts with
-// the shortest time that any round needed. Whatever else the machine does only adds to a time.
+// the shortest time that any round needed. Other work on the machine only adds to a time.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace voxmelt::measure {
 
-// An implementation gave other bits than the reference, or its ledgers do not balance.
+// Is thrown if an implementation gave other bits than the reference, or its ledgers do not balance.
 class Mismatch : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -28,12 +28,12 @@ struct Candidate {
   int threads = 1;
 };
 
-// The digest after workload.lead_steps + workload.steps, as the workload's judge computes it.
+// Returns the digest after workload.lead_steps + workload.steps, as the workload's judge computes it.
 std::uint64_t expected_digest(const Workload& workload);
 
-// Seconds of one step.
+// Holds the seconds of one step.
 struct Seconds {
-  std::array<double, step::kPhaseCount> phase{};  // by step::Phase
+  std::array<double, step::kPhaseCount> phase{};  // indexed by step::Phase
   double flow() const;                            // gravity + spread + excess
   double heat() const;                            // heat + melt
   double total() const;
@@ -46,21 +46,21 @@ struct Medians {
   double flow = 0, heat = 0;
 };
 
-// One fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless the
-// state has `expected` for a digest afterwards and the ledgers balance.
+// Runs one fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless
+// the state has `expected` for a digest afterwards and the ledgers balance.
 Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected);
 
-// The least time of each phase of each step over all rounds.
+// Keeps the least time of each phase of each step over all rounds.
 class Fastest {
  public:
   void add(const Steps& round);  // every round has the same steps
   int rounds() const { return rounds_; }
   Seconds step() const { return mean(least_); }  // the mean step of these least times
-  Medians median() const;                        // of the rounds' mean steps: how busy the machine was
+  Medians median() const;  // over the rounds' mean steps: it shows how busy the machine was
 
  private:
   Steps least_;
-  std::vector<Seconds> means_;  // of each round
+  std::vector<Seconds> means_;  // one for each round
   int rounds_ = 0;
 };
 
@@ -73,11 +73,12 @@ struct Timing {
 struct Result {
   int rounds = 0;
   std::vector<Timing> timings;
-  // The paper's program, plainly written and compiled for this processor; empty where it cannot run.
+  // The paper's program is plainly written, and also compiled for this processor. Both are empty if it cannot
+  // run.
   std::optional<Seconds> plain, native;
 };
 
-// A round is: plain baseline, native baseline, each candidate.
+// Measures in rounds. A round is: plain baseline, native baseline, each candidate.
 Result measure(const Workload& workload, const std::vector<Candidate>& candidates, const Rounds& rounds,
                bool baseline);
 

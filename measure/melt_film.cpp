@@ -19,8 +19,8 @@ constexpr int kPart = 25;  // frames that are timed together
 struct Round {
   std::vector<double> parts;  // seconds
   double processor_seconds = 0;
-  std::uint32_t steps = 0;  // done
-  int frames = 0;           // drawn
+  std::uint32_t steps = 0;  // steps done
+  int frames = 0;           // frames drawn
 };
 
 Round film_once(const scene::Scene& scene, int frames, int threads) {

@@ -1,4 +1,4 @@
-// The instruction set that the native baseline needs: it is compiled for the processor of the build.
+// The native baseline needs an instruction set: it is compiled for the processor of the build.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace voxmelt::measure {
 
-// Data, no code: the file that defines it is compiled like that baseline.
+// This is data, no code: the file that defines it is compiled like that baseline.
 extern const std::optional<cpu::InstructionSet> kNativeNeeds;
 
 }  // namespace voxmelt::measure

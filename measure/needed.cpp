@@ -12,7 +12,7 @@ namespace {
 
 template <class T>
 bool differ(const state::Field<T>& a, const state::Field<T>& b, std::size_t begin, std::size_t count) {
-  if (a.empty()) return false;  // what the scene does not use
+  if (a.empty()) return false;  // a field that the scene does not use
   return !std::ranges::equal(a.stored().subspan(begin, count), b.stored().subspan(begin, count));
 }
 bool differ(const state::BitPlane&, const state::BitPlane&, std::size_t, std::size_t) {

@@ -1,4 +1,4 @@
-// What a step of a scene must do at least, in vectors: those in which a phase changes a cell. Whoever works
+// A step of a scene must at least write the vectors in which a phase changes a cell. Any program that works
 // by such vectors writes each of them. At the speed of a full volume, with perfect scaling over the threads,
 // this is the shortest time that sleeping and scheduling can reach.
 #pragma once
@@ -11,18 +11,18 @@
 
 namespace voxmelt::measure {
 
-// Vectors of a step, the mean of the timed steps.
+// Counts the vectors of a step, in the mean of the timed steps.
 struct Needed {
-  double gravity = 0, spread = 0, heat = 0;  // spread: with excess; heat: with melt
+  double gravity = 0, spread = 0, heat = 0;  // spread includes excess, heat includes melt
 };
 
-// 16-bit lanes of a vector: the narrowest set has 8, and each twice as many as the one before.
+// Returns the 16-bit lanes of a vector. The narrowest set has 8, and each next one has twice as many.
 constexpr int lanes_of(cpu::InstructionSet set) { return 8 << static_cast<int>(set); }
 
-// For vectors of each of these lengths. The reference runs the workload's steps.
+// Counts for vectors of each of these lengths. The reference runs the workload's steps.
 std::vector<Needed> needed_vectors(const Workload& workload, const std::vector<int>& lanes);
 
-// One thread in a full volume: seconds of a step, and its cells.
+// Holds one thread's time in a full volume: seconds of a step, and its cells.
 struct FullVolume {
   Seconds step;
   double cells = 0;
@@ -33,8 +33,8 @@ struct LeastSeconds {
   std::optional<double> heat;  // conduction alone
 };
 
-// Under the paper's law. `flow`: every cell liquid and in motion, gravity timed apart from spread. `heat`:
-// every cell solid.
+// Gives the least seconds under the paper's law. In `flow` every cell is liquid and in motion, with gravity
+// timed apart from spread. In `heat` every cell is solid.
 LeastSeconds least_seconds(const Needed& needed, int lanes, int threads, const FullVolume& flow,
                            const std::optional<FullVolume>& heat);
 

@@ -1,14 +1,14 @@
-// Table 1 of the paper: milliseconds of a frame, on a Pentium IV of 2.53 GHz.
+// Table 1 of the paper gives milliseconds of a frame, on a Pentium IV of 2.53 GHz.
 #pragma once
 
 namespace voxmelt::measure {
 
 struct PaperRow {
-  const char* scene;  // of ours
-  const char* as;     // its name there
+  const char* scene;  // name of voxmelt's scene
+  const char* as;     // its name in the paper
   double gravity, spreading, update;
 
-  double frames() const { return 1000 / (gravity + spreading + update); }  // a second
+  double frames() const { return 1000 / (gravity + spreading + update); }  // frames a second
 };
 inline constexpr PaperRow kPaperTable[] = {{"cello", "Cello", 3.2, 15.6, 65.8},
                                            {"goblet", "Chocolate", 3.2, 18.4, 83.8},

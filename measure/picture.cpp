@@ -11,7 +11,7 @@
 namespace voxmelt::measure {
 namespace {
 
-// The least of the seconds that `task` returns, over all rounds.
+// Returns the least of the seconds that `task` returns, over all rounds.
 template <class Task>
 double least(const Rounds& rounds, const Task& task) {
   const RoundClock clock(rounds);

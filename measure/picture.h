@@ -1,4 +1,4 @@
-// The third column of the paper's Table 1: what a new state costs before it can be drawn.
+// The third column of the paper's Table 1 is the cost of a new state before it can be drawn.
 #pragma once
 
 #include "kernel/scene/look.h"
@@ -6,11 +6,12 @@
 
 namespace voxmelt::measure {
 
-// Least seconds of DensityField::update after one more step of the workload, with the candidate's threads.
+// Returns the least seconds of DensityField::update after one more step of the workload, with the candidate's
+// threads.
 double update_seconds(const Workload& workload, const scene::Look& look, const scene::Terrain& terrain,
                       const Candidate& candidate, const Rounds& rounds);
 
-// The same for the plain baseline: intensities and their low-pass filter, the whole grid.
+// Returns the same for the plain baseline: intensities and their low-pass filter, the whole grid.
 double baseline_update_seconds(const Workload& workload, const Rounds& rounds);
 
 }  // namespace voxmelt::measure

@@ -7,12 +7,13 @@
 namespace voxmelt::measure {
 namespace {
 
-// Prices, in operations on 16-bit lanes. Bit planes cost nothing: 16 cells fit where one amount does.
+// Prices are in operations on 16-bit lanes. Bit planes cost nothing: 16 cells fit where one amount does.
 constexpr double kWideAdd = 2;     // 32 bits: two lanes
-constexpr double kTerm = 3;        // of a ledger: a difference, summed in 32 bits
+constexpr double kTerm = 3;        // a term of a ledger: a difference, summed in 32 bits
 constexpr double kRoundedMul = 2;  // (a w + R) >> 16 with R > 0 needs the low half of the product as well,
 constexpr double kRoundedAdd = 2;  // its sum with R, and the carry
-// A quotient: a multiply by a reciprocal that costs nothing, one back, difference, comparison, correction.
+// A quotient takes a multiply by a reciprocal that costs nothing, one back, difference, comparison,
+// correction.
 constexpr double kDivideMul = 2, kDivideAdd = 3;
 
 class Counting {
@@ -46,7 +47,7 @@ class Counting {
   Work work_;
 };
 
-// Every field once per step: 2 bytes for a number, 1/8 for a bit.
+// Counts every field once per step: 2 bytes for a number, 1/8 for a bit.
 Work with_bytes(Counting& counting, bool energy, bool hot) {
   std::string text = "A";
   if (energy) text += ", E";

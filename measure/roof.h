@@ -1,8 +1,9 @@
-// How fast the automaton could be at most on this machine: what its definition needs for a cell, and what the
-// machine was measured to do.
+// The roof tells how fast the automaton could be at most on this machine. It sets the needs of its definition
+// for a cell against the measured rates of the machine.
 //
-// It is counted from docs/automaton.md, not from our instructions. It is an upper bound: operations that a
-// clever implementation might avoid are counted only where the definition asks for their results.
+// The needs are counted from docs/automaton.md, not from voxmelt's instructions. The roof is an upper bound:
+// operations that a clever implementation might avoid are counted only if the definition asks for their
+// results.
 #pragma once
 
 #include <string>
@@ -37,7 +38,7 @@ Work work_of(Subject subject, const rule::Parameters& parameters);
 
 struct Roof {
   double operations = 0, bytes = 0;  // cells per second
-  double multiplies = 0;             // likewise, if every operation were as slow as a multiply
+  double multiplies = 0;             // cells per second, if every operation were as slow as a multiply
   double cells() const { return operations < bytes ? operations : bytes; }
 };
 Roof roof_of(const Work& work, const LaneRates& rates, const Bandwidth& bandwidth);

@@ -1,11 +1,11 @@
-// How long a measurement is repeated: long enough for one undisturbed round.
+// A measurement is repeated long enough for one undisturbed round.
 #pragma once
 
 #include <chrono>
 
 namespace voxmelt::measure {
 
-// At least `fewest` rounds, and more, up to kMostRounds, while `seconds` are not over.
+// Asks for at least `fewest` rounds, and for more, up to kMostRounds, while `seconds` are not over.
 struct Rounds {
   int fewest = 5;
   double seconds = 15;

@@ -21,7 +21,7 @@ std::optional<cpu::InstructionSet> set_named(const std::string& name) {
   return std::nullopt;
 }
 
-// Bytes that the active cells take: what must come through the caches at least.
+// Returns the bytes that the active cells take: so many must come through the caches at least.
 std::size_t footprint(const Workload& workload, std::int64_t active) {
   const bool paper = workload.parameters.flow.law == rule::Law::paper;
   const double bytes = 2.0 * (1 + paper + workload.parameters.heat.enabled) + 3.0 / 8;
@@ -207,7 +207,8 @@ void Suite::run_dense() {
   if (!plan_.quick) run(dense_heat(n, 26));
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) run(asleep({n, n, n}, n / 2, law));
 
-  // Too large for the reference, and for the baseline's seven real fields: another implementation is judge.
+  // These are too large for the reference, and for the baseline's seven real fields. Another implementation
+  // is judge.
   if (plan_.quick || findings_.machine_text.memory_bytes < std::size_t{8} << 30) return;
   run_large(dense_paper(512, false));
   run_large(asleep({1024, 256, 1024}, 16, rule::Law::paper));

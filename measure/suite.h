@@ -1,4 +1,4 @@
-// All that `voxmelt bench` measures, and its results.
+// The suite runs all that `voxmelt bench` measures, and keeps the results.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace voxmelt::measure {
 
-// One line of the tables: a workload, a subject, an implementation, a number of threads.
+// A case is one line of the tables: a workload, a subject, an implementation, a number of threads.
 struct Case {
   std::string name;  // "flow/avx512/scene:cello/step:1050/threads:2"
   Subject subject = Subject::flow;
@@ -27,20 +27,20 @@ struct Case {
   int threads = 1;
   std::string judge;
   state::Grid grid;
-  std::int64_t cells = 0, active = 0;  // of the grid; that have to do with the subject
+  std::int64_t cells = 0, active = 0;  // all cells of the grid, and those that concern the subject
   bool hot = false;                    // the state has heat
   int heat_neighbours = 0;
-  int rounds = 0;             // that the minima were taken over
+  int rounds = 0;             // rounds that the minima were taken over
   Seconds step;               // with all phases
-  double seconds = 0;         // of the subject in that step
-  double median_seconds = 0;  // of the rounds, each with a mean step
-  double bytes_per_cell = 0;  // that the definition needs
+  double seconds = 0;         // the subject's time in that step
+  double median_seconds = 0;  // median of the rounds, each with a mean step
+  double bytes_per_cell = 0;  // needed by the definition
   Work work;
   std::size_t footprint = 0;  // bytes of the active cells' state
   std::optional<Roof> roof;   // none at rest, and for the reference
   std::optional<double> ratio_to_baseline, ratio_to_native;
-  std::optional<Needed> needed;         // of a scene under the paper's law
-  std::optional<double> least_seconds;  // what they take at the speed of a full volume
+  std::optional<Needed> needed;         // for a scene under the paper's law
+  std::optional<double> least_seconds;  // time for the needed vectors at the speed of a full volume
 
   double cells_per_second() const { return static_cast<double>(cells) / seconds; }
   double active_per_second() const { return static_cast<double>(active) / seconds; }
@@ -53,32 +53,32 @@ struct Case {
   }
 };
 
-// The full volume of kFullSide cells a side whose speed bounds scenes: it fits a second-level cache.
+// The full volume of kFullSide cells a side bounds the speed of scenes. It fits a second-level cache.
 inline constexpr int kFullSide = 64;
-// Sets least_seconds where the cases hold what it needs: full volumes on one thread, by the same kernels.
+// Sets least_seconds if the cases hold what it needs: full volumes on one thread, by the same kernels.
 void bound_scenes(std::vector<Case>& cases);
 
-// A row of the paper's Table 1 beside ours, milliseconds.
+// Holds a row of the paper's Table 1, or voxmelt's beside it, in milliseconds.
 struct TableRow {
   std::string scene, program;
   state::Grid grid;
   double gravity = 0, spreading = 0, update = 0;
-  double frames_per_second = 0;  // of a step with all its phases, and the update
+  double frames_per_second = 0;  // a frame is a step with all its phases, and the update
 };
 
-// How many times faster several threads are than one. A measurement may exceed any bound of either number:
-// see docs/decisions/performance-minima.md.
+// Tells how many times faster several threads are than one. A measurement may exceed any bound of either
+// number: see docs/decisions/performance-minima.md.
 struct Scaling {
   std::string workload, implementation;
   int threads = 2;
   double speedup = 1;
   double efficiency() const { return speedup / threads; }
 };
-// Each dense case with more than one thread, against the same case with one.
+// Compares each dense case with more than one thread with the same case with one.
 std::vector<Scaling> scaling_of(const std::vector<Case>& cases);
 
 double seconds_of(Subject subject, const Seconds& step);  // flow or heat
-// How many times as long the baseline takes; nothing where it did not run.
+// Returns how many times as long the baseline takes, or nothing if it did not run.
 std::optional<double> ratio_to(const std::optional<Seconds>& baseline, const Seconds& ours, Subject subject);
 
 struct Findings {
@@ -88,7 +88,7 @@ struct Findings {
   std::vector<Case> cases;
   std::vector<TableRow> table_1;
   std::vector<Scaling> scaling;
-  // The picture.
+  // These are the findings about the picture.
   std::vector<Drawing> drawings;
   std::vector<FinerGrid> finer_grids;
   std::vector<MeltFilm> films;
@@ -98,7 +98,7 @@ struct Plan {
   bool quick = false;
   std::vector<const step::Implementation*> implementations;
   std::vector<int> threads{1};  // ascending
-  std::vector<Drawer> drawers;  // of pictures
+  std::vector<Drawer> drawers;  // the drawers of pictures
   bool automaton = true;        // false: the machine is not measured, because nothing is held against it
   Rounds rounds;
   Rounds picture_rounds() const { return {rounds.fewest, rounds.seconds / 5}; }
@@ -106,16 +106,16 @@ struct Plan {
 
 class Suite {
  public:
-  // `tell`: called with each workload's cases as soon as they are known.
+  // The function `tell` is called with each workload's cases as soon as they are known.
   using Tell = std::function<void(const Workload&, const Result&, const std::vector<Case>&)>;
   Suite(Plan plan, Tell tell);
 
   void run(const Workload& workload, bool baseline = true);
-  // Also fills a row of Table 1 where the paper has the scene.
+  // Also fills a row of Table 1 if the paper has the scene.
   void run_scene(const Workload& workload, const scene::Scene& scene);
   void run_dense();  // everything that is no scene
 
-  // The picture's parts: each returns what it has found, which is kept too.
+  // Each of these measures a part of the picture, and keeps and returns its findings.
   const Drawing& run_drawing(const Workload& workload, const scene::Scene& scene);
   const std::vector<FinerGrid>& run_finer_grids(const std::vector<scene::Scene>& scenes, std::uint32_t step);
   const MeltFilm& run_film(const scene::Scene& scene);

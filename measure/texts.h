@@ -1,4 +1,4 @@
-// How numbers are written in tables.
+// The functions here write numbers for tables.
 #pragma once
 
 #include <cstddef>

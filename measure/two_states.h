@@ -1,5 +1,5 @@
-// A scene before and after a few steps: a volume that goes from one to the other as often as wanted, and
-// tells its changes as the simulation told them.
+// A scene is kept before and after a few steps. The volume goes from one state to the other as often as
+// wanted, and tells its changes as the simulation told them.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace voxmelt::measure {
 
 class TwoStates {
  public:
-  // `steps` after the workload's lead steps.
+  // Keeps the state after the workload's lead steps, and the one `steps` later.
   TwoStates(const Workload& workload, int steps);
 
   const state::Volume& before() { return take(before_), volume_; }
@@ -29,7 +29,7 @@ class TwoStates {
 
   state::Volume before_, after_, volume_;
   std::vector<Mark> marks_;
-  bool all_ = false;  // nobody told what changed
+  bool all_ = false;  // set if the simulation does not know what changed
 };
 
 }  // namespace voxmelt::measure

@@ -13,7 +13,7 @@
 namespace voxmelt::measure {
 namespace {
 
-// The same everywhere: a number in 0 .. n - 1 for a cell.
+// Draws a number in 0 .. n - 1 for a cell. It is the same on every machine.
 std::uint32_t drawn(std::uint64_t what, std::uint64_t cell, std::uint32_t n) {
   return static_cast<std::uint32_t>(state::mixed_bits(cell * 0x9E3779B97F4A7C15u + what + 1) % n);
 }
@@ -26,7 +26,7 @@ void for_each_cell(state::Volume& volume, const Fill& fill) {
       for (int x = 0; x < g.x; ++x) fill(x, y, z, volume.at(x, y, z), g.index(x, y, z));
 }
 
-// The parameters of the showcase scenes, less those that would let cells rest.
+// Returns the parameters of the showcase scenes, less those that would let cells rest.
 rule::Parameters showcase(rule::Law law, bool heat) {
   rule::Parameters p;
   p.flow.law = law;

@@ -1,8 +1,8 @@
-// The number formats and roundings in which the twin computes. Each is a set of functions that the rules call
-// in place of operators, so that there is one text of the rules for all.
+// The twin computes in these number formats and roundings. Each is a set of functions that the rules call in
+// place of operators, so that there is one text of the rules for all.
 //
-// A whole format of b bits holds what the state of 16 bits holds, cut at another bit: a full cell is 2^(b-4),
-// the top of the range of heat is 2^b - 1. A real format counts in units of the 16-bit state, and rounds
+// A whole format of b bits holds what the state of 16 bits holds, cut at another bit. A full cell is 2^(b-4),
+// and the top of the range of heat is 2^b - 1. A real format counts in units of the 16-bit state, and rounds
 // nothing but what its own arithmetic rounds.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace voxmelt::accuracy::front {
 
-// What stands where docs/automaton.md has a dither.
+// A rounding takes the place of each dither in docs/automaton.md.
 enum class Rounding { truncate, nearest, dithered };
 
 template <class Stored, Rounding kRounding>
@@ -28,7 +28,8 @@ struct Whole {
   static constexpr Wide kMost = std::numeric_limits<Stored>::max();
   static constexpr Wide kOne = Wide{1} << (kBits - 4);
 
-  // A number of the 16-bit state, to the nearest; what is not 0 stays at least one unit.
+  // Converts a number of the 16-bit state to the nearest of this format. A number above 0 stays at least one
+  // unit.
   static Wide of(std::int64_t units) {
     if constexpr (kBits >= 16) {
       return units << (kBits - 16);
@@ -45,16 +46,16 @@ struct Whole {
   static std::int64_t offset(std::int64_t dither) {
     return kRounding == Rounding::truncate ? 0 : kRounding == Rounding::nearest ? 32768 : dither;
   }
-  // a x fraction / 65536: rounded down, or as the format rounds. Truncated, it is rounded towards 0: rounded
-  // down, a cell would lose by every face at once.
+  // Gives a x fraction / 65536, rounded down or as the format rounds. If truncated, it is rounded towards 0:
+  // rounded down, a cell would lose by every face at once.
   static Wide part(Wide a, std::int64_t fraction) { return (a * fraction) >> 16; }
   static Wide part(Wide a, std::int64_t fraction, std::int64_t dither) {
     if (kRounding == Rounding::truncate && a < 0) return -((-a * fraction) >> 16);
     return (a * fraction + offset(dither)) >> 16;
   }
-  // Irradiance counts in 1/16 unit of the 16-bit state.
+  // Converts an irradiance, which counts in 1/16 unit of the 16-bit state.
   static Wide radiated(std::int64_t irradiance, std::int64_t dither) {
-    constexpr int down = 20 - kBits;  // from a sixteenth of such a unit to ours, below 0 for 32 bits
+    constexpr int down = 20 - kBits;  // right shift from that unit to this format's, below 0 for 32 bits
     if constexpr (down <= 0)
       return irradiance << -down;
     else
@@ -62,14 +63,14 @@ struct Whole {
   }
   static Wide quarter(Wide a) { return a >> 2; }
   static Wide nine_eighths(Wide a) { return (9 * a) >> 3; }
-  static Wide times(Wide flow, Wide energy) {  // energy per full cell
+  static Wide times(Wide flow, Wide energy) {  // `energy` is per full cell
     return (flow * energy) >> (kBits - 4);
   }
   static Wide mixed(Product content, Wide amount, std::int64_t dither) {
     const auto whole = static_cast<Product>(amount);
     return static_cast<Wide>((content + ((whole * static_cast<Product>(offset(dither))) >> 16)) / whole);
   }
-  static std::size_t band(Wide heat) { return static_cast<std::size_t>(heat >> (kBits - 5)); }  // of 32
+  static std::size_t band(Wide heat) { return static_cast<std::size_t>(heat >> (kBits - 5)); }  // 0..31
 };
 
 template <class Number>

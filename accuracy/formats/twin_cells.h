@@ -1,5 +1,5 @@
-// The twin's state: a number per cell and field, a byte for what the cell is, and a border of inert cells, so
-// that no rule has a case for the edge.
+// The twin's state has a number per cell and field, and a byte for the kind of each cell. A border of inert
+// cells spares the rules a case for the edge.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace voxmelt::accuracy::front {
 
 enum Kind : std::uint8_t { kAir = 0, kSolid = 1, kLiquid = 2, kInert = 4, kFresh = 8 };  // fresh: melted now
 
-// For each row (y, z) the cells x that may matter: those of matter and of its neighbours.
+// Keeps, for each row (y, z), the cells x that may matter: those of matter and of its neighbours.
 class Rows {
  public:
   struct Interval {
@@ -36,7 +36,7 @@ class Rows {
         rows_[place(y, z)] = {std::max(0, wide.begin), std::min(grid.x, wide.end)};
       }
   }
-  // Every row of a slice gets the union of the slice's rows: for sweeps along gravity.
+  // Gives every row of a slice the union of the slice's rows, for sweeps along gravity.
   Rows columns() const {
     Rows all = *this;
     for (int z = 0; z < grid_.z; ++z) {
@@ -120,7 +120,8 @@ struct Cells {
     return Rows(grid, std::move(own));
   }
 
-  // After amounts changed: what holds something is liquid, what holds nothing has no energy and no heat.
+  // Brings kinds up to date after amounts changed. A cell that holds something is liquid; one that holds
+  // nothing has no energy and no heat.
   void settle(const Rows& where) {
     where.for_each([&](int x, int y, int z) {
       const std::size_t i = at(x, y, z);
@@ -134,7 +135,7 @@ struct Cells {
   int line, slice;
   std::vector<std::uint8_t> kind;
   std::vector<Value> amount, energy, heat;
-  state::Volume masks;  // `solid` and `inert`, for those who follow rays
+  state::Volume masks;  // `solid` and `inert`, for the tracing of rays
 
  private:
   bool none_of_eight(std::size_t i) const {

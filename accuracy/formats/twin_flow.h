@@ -1,5 +1,5 @@
-// Sections 4, 8 and 9 of docs/automaton.md in any number format: vents and drains, gravity with excess, and
-// the spreading of the paper's law.
+// The twin runs sections 4, 8 and 9 of docs/automaton.md in any number format. These are vents and drains,
+// gravity with excess, and the spreading of the paper's law.
 #pragma once
 
 #include <algorithm>

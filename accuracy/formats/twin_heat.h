@@ -1,4 +1,4 @@
-// Sections 6 and 7 of docs/automaton.md in any number format: heat and melting.
+// The twin runs sections 6 and 7 of docs/automaton.md, heat and melting, in any number format.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ class HeatRules {
         if (conducts(ahead)) gain += Format::part(temperature(cells.heat[ahead]) - own, weight, dither[k]);
         if (conducts(behind)) gain -= Format::part(own - temperature(cells.heat[behind]), weight, dither[k]);
       }
-      // With the dither nothing is cut here. Without it, small flows round the same way on all sides.
+      // With the dither, nothing is cut here. Without it, small flows round the same way on all sides.
       next_[i] = static_cast<Value>(std::clamp(cells.heat[i] + gain, Wide{0}, Format::kMost));
     });
     cells.heat.swap(next_);
@@ -100,7 +100,7 @@ class HeatRules {
     cells.heat.swap(next_);
   }
 
-  // Radiation, and exchange with air: each cell alone.
+  // Adds radiation and exchange with air, which concern each cell alone.
   void take_in(std::uint32_t step, const state::Field<std::uint16_t>* irradiance, Cells<Format>& cells,
                const Rows& rows) {
     const std::int64_t dither = rule::dither(step);

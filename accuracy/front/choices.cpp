@@ -1,4 +1,4 @@
-// Which settings are swept.
+// The functions here choose the settings of a sweep.
 #include <fmt/format.h>
 
 #include <string>
@@ -15,7 +15,7 @@ std::string times(double value, const char* what) {
   return value < 1 ? fmt::format("{} 1/{:g}", what, 1 / value) : fmt::format("{} x {:g}", what, value);
 }
 
-// Cheaper and finer on several axes at once, up to the setting of the reference.
+// Adds settings that are cheaper and finer on several axes at once, up to the setting of the reference.
 void add_several(const Subject& subject, Extent extent, std::vector<Choice>& all) {
   const auto add = [&](double step, int neighbours, int rays, int interval) {
     Choice choice{Axis::several, usual_setting(extent)};

@@ -9,7 +9,7 @@ namespace voxmelt::accuracy::front {
 
 namespace {
 
-// Under the viscous law the reference is a run of the engine. Beside itself it is no evidence.
+// Under the viscous law the reference is a run of the engine. Compared with itself it is no evidence.
 bool is_its_own_reference(const Swept& swept, const Measured& point) {
   return swept.subject->viscous && point.choice.setting == swept.reference;
 }

@@ -14,9 +14,9 @@ namespace voxmelt::accuracy::front {
 namespace {
 
 constexpr double kFloor = 2;     // height of the floor in the scenes' files
-constexpr int kFloorOfGrid = 1;  // on any grid: it is as good as a thick one
+constexpr int kFloorOfGrid = 1;  // on any grid: a thin floor is as good as a thick one
 
-// Of the scenes' files.
+// Holds numbers from the scenes' files.
 struct Numbers {
   double gamma, exchange, convection, power, rate, wall_factor, alpha_liquid, alpha_solid, kappa, yield;
 };
@@ -41,7 +41,8 @@ bool has_floor(const std::string& name) { return name != "lava"; }
 
 std::string list(double x, double y, double z) { return fmt::format("[{:.6f},{:.6f},{:.6f}]", x, y, z); }
 
-// Conduction of n neighbours is as fast as that of 6 if gamma is so many times less: 1 / pi l^2 over all.
+// Conduction with n neighbours is as fast as with 6 if gamma is less by this factor. It is the ratio of the
+// sums of x^2 / l^2 over the neighbours.
 double slowness(int neighbours) { return neighbours == 6 ? 1 : neighbours == 18 ? 3 : 13.0 / 3; }
 
 }  // namespace

@@ -24,10 +24,10 @@
 namespace voxmelt::accuracy::front {
 namespace {
 
-// What else the machine does costs no time of this clock.
+// This clock does not count the time of other work on the machine.
 double processor_seconds() { return measure::now(measure::Clock::thread); }
 
-// The paper's program from this state on: its fastest of a few steps.
+// Times the paper's program from this state on, and takes the fastest of a few steps.
 std::optional<double> baseline_cells_per_second(const rule::Parameters& parameters,
                                                 const state::Volume& start) {
   measure::Workload workload;
@@ -48,7 +48,7 @@ struct Ran {
   int state_bits = 0;
 };
 
-// All runs of one subject. What is asked for twice is computed once.
+// Keeps all runs of one subject. The twin's runs are computed once each.
 class Runs {
  public:
   Runs(const Subject& subject, const Conditions& conditions)
@@ -93,7 +93,7 @@ class Runs {
     work();
   }
 
-  // Of a setting that was prepared.
+  // Returns the twin's run at a setting that was prepared.
   const Ran& by_twin(const Setting& setting) const {
     const auto found =
         std::find_if(by_twin_.begin(), by_twin_.end(), [&](const auto& one) { return one.first == setting; });
@@ -136,7 +136,8 @@ constexpr int kSeeds = 3;
 constexpr std::uint64_t kFirstSeed = 1001;
 constexpr int kRounds = 3;
 
-// The twin where the engine has no such arithmetic; for a fair comparison also in the engine's own.
+// The twin runs what the engine has no arithmetic for. For a fair comparison it also runs in the engine's
+// own.
 bool needs_twin(const Choice& choice) { return choice.axis == Axis::format || choice.axis == Axis::rounding; }
 
 Measured by_twin(const Runs& runs, const Choice& choice) {
@@ -149,7 +150,7 @@ Measured by_twin(const Runs& runs, const Choice& choice) {
   return point;
 }
 
-// Every setting at which the twin must run: as chosen, in double, and in the engine's format.
+// Lists every setting at which the twin must run: as chosen, in double, and in the engine's format.
 std::vector<Setting> twins_of(const std::vector<Choice>& chosen, Setting reference) {
   reference.arithmetic = kExact;
   std::vector<Setting> needed{reference};
@@ -175,8 +176,8 @@ void compare(const Runs& runs, const Curves& found, const Curves& reference, Mea
   point.model = errors(exact, reference);
 }
 
-// Other rounds, each over all points, so that what else the machine does hits them alike. The shortest time
-// of a point counts.
+// Runs further rounds, each over all points, so that other work on the machine hits them alike. The shortest
+// time of a point counts.
 void time_again(const Runs& runs, int rounds, std::vector<Measured>& points) {
   for (int round = 1; round < rounds; ++round)
     for (Measured& point : points) {
@@ -200,7 +201,7 @@ Swept sweep(const Subject& subject, Extent extent, const Conditions& conditions,
   const Curves reference = subject.viscous ? runs.by_engine(swept.reference, false).curves
                                            : runs.in_double(swept.reference).curves;
   const Curves on_finest_grid = runs.by_engine(swept.finest_grid, false).curves;
-  Curves first;  // of the usual setting
+  Curves first;  // the curves of the usual setting
   for (const Choice& choice : chosen) {
     told(choice);
     if (needs_twin(choice)) {

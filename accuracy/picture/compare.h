@@ -1,4 +1,4 @@
-// How far two pictures are from each other.
+// The functions here say how far two pictures are from each other.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline double square_error(const render::Rgb& a, const render::Rgb& b) {
   return sum;
 }
 
-// The ratio of peak to noise over all bytes, in dB; infinite for equal pictures.
+// Returns the ratio of peak to noise over all bytes, in dB. It is infinite for equal pictures.
 inline double psnr(const render::Image& a, const render::Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += square_error(a.pixels[i], b.pixels[i]);
@@ -25,7 +25,7 @@ inline double psnr(const render::Image& a, const render::Image& b) {
   return 10 * std::log10(255 * 255 * 3 * static_cast<double>(a.pixels.size()) / sum);
 }
 
-// Grey where both are equal; a byte of difference counts eight times.
+// Draws grey where both are equal. A byte of difference counts eight times.
 inline render::Image difference_picture(const render::Image& a, const render::Image& b) {
   render::Image image(a.width, a.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)

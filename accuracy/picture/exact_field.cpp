@@ -15,13 +15,13 @@ struct Cell {
   int cell;
   double part;
 };
-// Half a cell further down, or not at all: `shift`.
+// Returns the cell of a place, moved down by `shift`: half a cell, or nothing.
 Cell cell_of(double p, double shift, int low, int high) {
   const double floor = std::clamp(std::floor(p - shift), static_cast<double>(low), static_cast<double>(high));
   return {static_cast<int>(floor), p - shift - floor};
 }
 
-// The weights of a quadratic B-spline and of its slope, of cell - 1, cell, cell + 1.
+// Holds the weights of a quadratic B-spline and of its slope, for cell - 1, cell, cell + 1.
 struct Spline {
   std::array<double, 3> value, slope;
 };
@@ -52,7 +52,7 @@ ExactField::ExactField(const render::PictureScene& scene) {
   find_distances();
 }
 
-// Two sweeps, over the 13 neighbours before a cell and then over the 13 behind it.
+// Finds them in two sweeps, over the 13 neighbours before a cell and then over the 13 behind it.
 void ExactField::find_distances() {
   far_.assign(levels_.size(), kFarthest);
   const auto row = static_cast<std::ptrdiff_t>(side_[0]), slice = row * static_cast<std::ptrdiff_t>(side_[1]);
@@ -92,12 +92,13 @@ double ExactField::level(Exact p) const {
   return levels_between({x.cell, y.cell, z.cell}, p, p)[0];
 }
 
-// From one place to another in a cell of eight levels. Each coefficient takes its coordinates from both ends.
+// Follows the level from one place to another in a cell of eight levels. Each coefficient takes its
+// coordinates from both ends.
 Cubic ExactField::levels_between(const std::array<int, 3>& cell, Exact from, Exact to) const {
   const float* const first = levels_.data() + at(cell[0], cell[1], cell[2]);
   const std::size_t row = side_[0], slice = side_[0] * side_[1];
   const auto along_x = [&](std::size_t side, double w) { return blend(first[side], first[side + 1], w); };
-  // Both ends along x, for each of the four rows.
+  // Both ends are blended along x, for each of the four rows.
   const double ax = from.x - 0.5 - cell[0], ay = from.y - 0.5 - cell[1], az = from.z - 0.5 - cell[2];
   const double bx = to.x - 0.5 - cell[0], by = to.y - 0.5 - cell[1], bz = to.z - 0.5 - cell[2];
   const std::array<double, 4> a{along_x(0, ax), along_x(row, ax), along_x(slice, ax),
@@ -155,7 +156,7 @@ Exact ExactField::normal(Exact p) const {
   return unit(slope * -1);
 }
 
-// Read among the centres of cells.
+// Reads the bytes between the centres of cells.
 ExactField::Matter ExactField::matter(Exact p) const {
   const auto axis = [](double at, int cells) {
     return cell_of(std::clamp(at, 0.5, cells - 0.5), 0.5, 0, cells - 1);

@@ -1,5 +1,6 @@
-// The field of a picture in double: sample, first crossing, normal and matter (docs/picture/definition.md,
-// sections 6 to 8), without roundings and without steps. The levels and the cells' bytes are data.
+// The field of a picture in double gives sample, first crossing, normal and matter
+// (docs/picture/definition.md, sections 6 to 8), without roundings and without steps. The levels and the
+// cells' bytes are data.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ class ExactField {
   explicit ExactField(const render::PictureScene& scene);
 
   double level(Exact p) const;
-  // The first place of the ray with a level of 0 or more, or a negative number. Within a cell the level is a
-  // cubic along the ray, so nothing between two samples is lost.
+  // Returns the first place of the ray with a level of 0 or more, or a negative number. Within a cell the
+  // level is a cubic along the ray, so nothing between two samples is lost.
   double first_crossing(const ExactRay& ray) const;
   Exact normal(Exact p) const;
   struct Matter {
@@ -27,15 +28,15 @@ class ExactField {
   Matter matter(Exact p) const;
   bool obstacles() const { return obstacles_; }
 
-  // How many cells (the largest difference of an axis) the nearest sample that may be matter is away from a
-  // lower cell -1 .. n - 1: 0 is here.
+  // Returns how many cells the nearest sample that may be matter is away from a lower cell -1 .. n - 1. It
+  // counts the largest difference of an axis; 0 means in the cell itself.
   int distance(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return far_[at(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))];
   }
 
  private:
   static constexpr int kBorder = 2;
-  // Of cells -2 .. n + 1.
+  // Indexes cells -2 .. n + 1.
   std::size_t at(int x, int y, int z) const {
     return (static_cast<std::size_t>(z + kBorder) * side_[1] + static_cast<std::size_t>(y + kBorder)) *
                side_[0] +

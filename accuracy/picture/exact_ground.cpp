@@ -17,7 +17,7 @@ struct Between {
   int low, high;
   double part;
 };
-// Two entries of a table of so many, whose ends repeat themselves. Entry i is at i + 1/2.
+// Finds two entries of a table of `count`, continued with its end entries. Entry i is at i + 1/2.
 Between between(double p, int count) {
   const double floor = std::floor(p - 0.5);
   const auto within = [&](double i) { return static_cast<int>(std::clamp(i, 0.0, count - 1.0)); };
@@ -85,7 +85,7 @@ double ExactGround::highest_of_block(int x, int z) const {
   return block_highest_[static_cast<std::size_t>(z) * blocks_x_ + static_cast<std::size_t>(x)];
 }
 
-// How deep two places and what is between them lie below the drawn heights of a lower column.
+// Gives how deep two places and the line between them lie below the drawn heights of a lower column.
 Cubic ExactGround::depths_between(const std::array<int, 2>& cell, Exact from, Exact to) const {
   const double* const first = drawn_.data() + at(cell[0], cell[1]);
   const auto height = [&](double x, double z) {
@@ -124,7 +124,7 @@ ExactGround::Crossing ExactGround::first_crossing(const ExactRay& ray) const {
       out = std::min(walk.leaves(from, to), span.last);
       const double part = first_reached(depths_between(cell, ray.at(walk.t()), ray.at(out)));
       if (part >= 0) {
-        // What the ray meets where it comes into the box is the face through which it comes.
+        // If the ray meets the ground where it enters the box, it meets the face that it enters through.
         Face face = Face::top;
         if (begin && part == 0) {
           if (span.axis < 0) face = Face::none;

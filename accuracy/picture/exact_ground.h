@@ -1,5 +1,5 @@
-// The ground of a picture in double: crossing, normal and colour (docs/picture/ground.md), without roundings
-// and without steps. Heights of columns, texels and tables are data.
+// The ground of a picture in double gives crossing, normal and colour (docs/picture/ground.md), without
+// roundings and without steps. Heights of columns, texels and tables are data.
 #pragma once
 
 #include <array>
@@ -17,10 +17,11 @@ class ExactGround {
   explicit ExactGround(const render::PictureScene& scene);
 
   struct Crossing {
-    double place = -1;  // on the ray; negative: none
+    double place = -1;  // on the ray; negative if there is none
     picture::Face face = picture::Face::none;
   };
-  // Above a column's four corners the height is quadratic along the ray, so no crest between samples is lost.
+  // Returns the first crossing. Above a column's four corners the height is quadratic along the ray, so no
+  // crest between samples is lost.
   Crossing first_crossing(const ExactRay& ray) const;
 
   struct Surface {
@@ -31,7 +32,7 @@ class ExactGround {
   double drawn_height(double x, double z) const { return height(drawn_, x, z); }
 
  private:
-  using Heights = std::vector<double>;  // of columns -1 .. n, which repeat the nearest of the grid, in cells
+  using Heights = std::vector<double>;  // for columns -1 .. n, which repeat the nearest of the grid, in cells
   static constexpr int kBlock = 8;
   std::size_t at(int x, int z) const {
     return static_cast<std::size_t>(z + 1) * row_ + static_cast<std::size_t>(x + 1);
@@ -47,7 +48,7 @@ class ExactGround {
   std::vector<double> block_highest_;
   double highest_ = 0;
   Exact color_;
-  int texels_per_cell_ = 0;  // 0: there are none
+  int texels_per_cell_ = 0;  // 0 if there are no texels
   const std::vector<picture::Texel>& texels_;
   std::vector<double> bands_;
   std::array<std::vector<double>, 4> bends_;

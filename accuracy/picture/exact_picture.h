@@ -1,4 +1,4 @@
-// The converged picture: the definition of docs/picture/definition.md in double, without roundings, without
+// The converged picture is the definition of docs/picture/definition.md in double, without roundings, without
 // steps, with 64 samples a pixel. The error of a drawn picture is its distance from this one.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace voxmelt::accuracy {
 
-// All of a scene that no camera changes. It refers to the scene.
+// Holds all of a scene that no camera changes. It refers to the scene.
 struct ExactScene {
   explicit ExactScene(const render::PictureScene& scene)
       : field(scene),
@@ -35,19 +35,19 @@ class ExactPicture {
   // The camera's distance must be given.
   ExactPicture(const ExactScene& scene, const picture::Camera& camera, picture::Vector cells);
 
-  // Through a place of the picture, in pixels from the upper left corner.
+  // Returns the ray through a place of the picture, in pixels from the upper left corner.
   ExactRay ray(double across, double down) const;
-  // Pressed light; 1 is white.
+  // Returns pressed light, in which 1 is white.
   Exact light(double across, double down) const;
   struct Seen {
-    double depth = -1;  // in cells from the near plane; negative: nothing is met
+    double depth = -1;  // in cells from the near plane; negative if nothing is met
     Exact position, normal;
   };
   Seen matter(double across, double down) const;  // as if there were no ground
 
-  // The mean of some samples, in bytes. Their places count in 1 / `one` of a pixel.
+  // Returns the mean of some samples, in bytes. Their places count in 1 / `one` of a pixel.
   render::Rgb pixel(int x, int y, std::span<const picture::Sub> samples, double one = picture::kPixel) const;
-  // With 64 samples a pixel.
+  // Draws the picture with 64 samples a pixel.
   render::Image draw(cpu::Workers& workers) const;
 
  private:

@@ -20,7 +20,7 @@ double smooth(double low, double high, double v) {
   return t * t * (3 - 2 * t);
 }
 
-// Six values as seen along a direction, of 255.
+// Weighs six values, each up to 255, as seen along a direction. The result is at most 1.
 double seen(const std::array<double, 6>& sides, Exact d) {
   const double sum = d.x * d.x * sides[d.x < 0 ? 1 : 0] + d.y * d.y * sides[d.y < 0 ? 3 : 2] +
                      d.z * d.z * sides[d.z < 0 ? 5 : 4];

@@ -1,5 +1,6 @@
-// Light and colour of a picture in double (docs/picture/light.md, sections 5 to 8), without roundings. The
-// volumes of light and the tables of the paint are data; between two entries there is a straight line.
+// The shade gives light and colour of a picture in double (docs/picture/light.md, sections 5 to 8), without
+// roundings. The volumes of light and the tables of the paint are data. Between two entries it interpolates
+// linearly.
 #pragma once
 
 #include <array>
@@ -16,13 +17,13 @@ class ExactShade {
   // Throws std::invalid_argument for a look with clear matter: rays end at the first surface here.
   explicit ExactShade(const render::PictureScene& scene);
 
-  // Linear red, green and blue; 1 is white.
+  // Returns linear red, green and blue, in which 1 is white.
   Exact matter_color(Exact p, Exact normal, Exact to_eye, const ExactField::Matter& matter) const;
   Exact ground_color(Exact p, Exact normal, Exact color) const;
 
  private:
   struct Light {
-    double lamp = 0;  // 0 .. 255, like the others
+    double lamp = 0;  // 0 .. 255, as are the others
     std::array<double, 6> open{}, glow{};
   };
   Light light_before(Exact p, Exact normal) const;

@@ -1,4 +1,4 @@
-// Vectors in double, in cells, and the first crossing of a cubic along a ray.
+// This header has vectors in double, in cells, and the first crossing of a cubic along a ray.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Exact {
 
 inline double dot(Exact a, Exact b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// 0 stays 0.
+// Scales a vector to length 1. A zero vector stays zero.
 inline Exact unit(Exact a) {
   const double length = std::sqrt(dot(a, a));
   return length > 0 ? a * (1 / length) : a;
@@ -35,12 +35,12 @@ struct ExactRay {
 
 inline double blend(double a, double b, double weight) { return a + (b - a) * weight; }
 
-// A cubic on 0 .. 1 by its four coefficients of Bernstein. It lies between the least and the greatest of
-// them.
+// A cubic on 0 .. 1 is given by its four Bernstein coefficients. It lies between the least and the greatest
+// of them.
 using Cubic = std::array<double, 4>;
 
-// The first place at which the cubic is 0 or more, to 2^-26; or a negative number. Halves are looked at only
-// where a coefficient reaches 0, so no graze is missed.
+// Returns the first place at which the cubic is 0 or more, to 2^-26, or a negative number. Halves are looked
+// at only where a coefficient reaches 0, so no graze is missed.
 inline double first_reached(const Cubic& c, double low = 0, double width = 1, int depth = 26) {
   if (c[0] >= 0) return low;
   if (c[1] < 0 && c[2] < 0 && c[3] < 0) return -1;

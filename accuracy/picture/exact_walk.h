@@ -1,4 +1,4 @@
-// A walk along a ray through boxes of whole cells.
+// The walk follows a ray through boxes of whole cells.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 namespace voxmelt::accuracy {
 
-// The part of a ray in a box, and through which axis it comes in: -1 where it starts inside.
+// A span is the part of a ray in a box. Its axis is the one through which the ray comes in, or -1 if it
+// starts inside.
 struct Span {
   double first = 0, last = std::numeric_limits<double>::infinity();
   int axis = -1;
@@ -35,7 +36,7 @@ Span span_in(const std::array<double, kAxes>& start, const std::array<double, kA
   return span;
 }
 
-// The cell of a ray's place `t`. It goes on from box to box of cells, and never backwards.
+// Keeps the cell of a ray's place `t`. The walk goes on from box to box of cells, and never backwards.
 template <std::size_t kAxes>
 class Walk {
  public:
@@ -48,7 +49,7 @@ class Walk {
   double t() const { return t_; }
   const std::array<int, kAxes>& cell() const { return cell_; }
 
-  // Where the ray leaves the cells low .. high, which hold the present one.
+  // Returns the place where the ray leaves the cells low .. high, which hold the present one.
   double leaves(const std::array<int, kAxes>& low, const std::array<int, kAxes>& high) {
     double least = std::numeric_limits<double>::infinity();
     axis_ = 0;
@@ -63,7 +64,7 @@ class Walk {
     }
     return std::max(least, t_);
   }
-  // Goes there.
+  // Goes to that place.
   void leave(const std::array<int, kAxes>& low, const std::array<int, kAxes>& high, double t) {
     t_ = t;
     for (std::size_t a = 0; a < kAxes; ++a)

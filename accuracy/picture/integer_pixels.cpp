@@ -29,7 +29,8 @@ picture::Crossing IntegerPixels::first_crossing(const picture::Ray& ray) const {
     const picture::Vector p = ray.at(k);
     const int far = field_.distance(picture::place_of(p.x).cell, picture::place_of(p.y).cell,
                                     picture::place_of(p.z).cell);
-    if (far > 0) {  // in so many steps less one the ray gets no further than to the last cell of air
+    // The steps of far - 1 cells are skipped: they end in the last cell of air at most.
+    if (far > 0) {
       k += std::max(std::int64_t{1}, std::int64_t{far - 1} << spacing_);
       continue;
     }

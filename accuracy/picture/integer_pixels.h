@@ -1,6 +1,6 @@
-// Pixels of the picture in integers, by render/rule (docs/picture/definition.md): the same bytes as the
-// reference, which the tests hold it against. It takes any step and any places of samples, and leaves out
-// samples in air.
+// Pixels of the picture are computed in integers, by render/rule (docs/picture/definition.md). They have the
+// same bytes as the reference, which the tests hold them against. Any step and any places of samples will do,
+// and samples in air are left out.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace voxmelt::accuracy {
 
 class IntegerPixels {
  public:
-  // A step is 2^-spacing cells, or less where the camera is near (picture::halvings_of). `field` says where
-  // air is.
+  // Takes steps of 2^-spacing cells, or less where the camera is near (picture::halvings_of). `field` says
+  // where air is.
   IntegerPixels(const render::PictureScene& scene, const ExactField& field, const picture::Camera& camera,
                 int spacing);
 

@@ -1,4 +1,5 @@
-// picture_error: how far pictures are from the converged one (docs/results/picture-error.md).
+// The program picture_error tells how far pictures are from the converged one
+// (docs/results/picture-error.md).
 //
 //   picture_error [--scenes cello,goblet] [--views 20] [--size 256] [--threads 2] [--causes] [--out FOLDER]
 //
@@ -50,7 +51,7 @@ class UsageError : public std::runtime_error {
 };
 
 struct Options {
-  std::vector<std::string> scenes;  // empty: all
+  std::vector<std::string> scenes;  // all if empty
   int views = kViews, size = 256, threads = 2;
   bool causes = false;
   std::string out;
@@ -97,7 +98,8 @@ Options options_of(const std::vector<std::string>& arguments) {
   return options;
 }
 
-// View k of a turntable. Views that follow each other are far apart, so that the first few show all sides.
+// Returns view k of a turntable. Views that follow each other are far apart, so that the first few show all
+// sides.
 scene::Camera camera_of(scene::Camera camera, int view, int size) {
   camera.azimuth += 360.0 * (view * 7 % kViews) / kViews;
   camera.elevation = kElevations[view % 5];
@@ -107,9 +109,9 @@ scene::Camera camera_of(scene::Camera camera, int view, int size) {
 
 struct Drawing {
   std::string name;
-  int spacing;  // of the integers; negative: drawn without roundings and steps
+  int spacing;  // spacing of the integers; negative: drawn without roundings and steps
   Sampling sampling;
-  double one = picture::kPixel;  // units of its places to a pixel
+  double one = picture::kPixel;  // units of a sample's place to a pixel
 };
 
 std::vector<Drawing> drawings(bool causes) {
@@ -121,11 +123,11 @@ std::vector<Drawing> drawings(bool causes) {
     all.push_back({"best " + step(spacing), spacing, best_sampling()});
   }
   if (!causes) return all;
-  // Without roundings and steps: what the samples' number and places cost.
+  // Without roundings and steps, only the number and the places of the samples cost.
   all.push_back({"fast exact", -1, fast_sampling()});
   all.push_back({"normal exact", -1, normal_sampling()});
   all.push_back({"best exact", -1, best_sampling()});
-  // As many samples as the converged picture: what roundings and steps cost.
+  // With as many samples as the converged picture, only roundings and steps cost.
   for (const int spacing : {2, 3})
     all.push_back({"64 samples " + step(spacing), spacing, lattice_sampling()});
   for (const int most : {4, 8, 32})
@@ -155,7 +157,7 @@ void measure(const MidMelt& which, const Options& options, std::map<std::string,
   for (int view = 0; view < options.views; ++view) {
     const scene::Camera asked = camera_of(scene.camera, view, options.size);
     picture::Camera camera = render::camera_in_integers(asked);
-    if (camera.distance == 0) {  // the distance that fits is data for both
+    if (camera.distance == 0) {  // both pictures take the distance that fits as given
       const picture::Vector back = picture::view_of(camera, data.levels.cells()).eye - camera.target;
       camera.distance = std::llround(std::sqrt(dot(accuracy::exact(back, 256), accuracy::exact(back, 256))));
     }

@@ -1,4 +1,5 @@
-// How many samples which pixels get (docs/picture/definition.md, section 10), for pixels of any origin.
+// A sampling says how many samples which pixels get (docs/picture/definition.md, section 10), for pixels of
+// any origin.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace voxmelt::accuracy {
 
 using Places = std::span<const picture::Sub>;
 
-// 64 samples, those of the converged picture.
+// The converged picture takes these 64 samples.
 inline constexpr std::array<picture::Sub, 64> kLattice = [] {
   std::array<picture::Sub, 64> values{};
   for (std::int32_t i = 0; i < 64; ++i)
@@ -24,7 +25,8 @@ inline constexpr std::array<picture::Sub, 64> kLattice = [] {
   return values;
 }();
 
-// First every pixel; then those that differ by more than `most` from a neighbour of the picture so far.
+// The first pass samples every pixel. Each later one samples those that differ by more than `most` from a
+// neighbour of the picture so far.
 struct Sampling {
   struct Pass {
     int most;
@@ -52,10 +54,10 @@ inline bool differs(const render::Image& image, int x, int y, int most) {
 
 struct Sampled {
   render::Image image;
-  double samples = 0;  // a pixel
+  double samples = 0;  // mean number per pixel
 };
 
-// pixel(x, y, places) gives the bytes of a pixel.
+// Draws a picture. pixel(x, y, places) gives the bytes of a pixel.
 template <class Pixel>
 Sampled sampled(int width, int height, const Sampling& sampling, const Pixel& pixel, cpu::Workers& workers) {
   Sampled result{render::Image(width, height), 0};

@@ -1,6 +1,6 @@
-// The paper's algorithm as a competent graphics programmer writes it without special effort: real fields, a
-// byte per flag, whole-grid loops, one thread. It is frozen, because every speed ratio of this project is
-// to it.
+// The baseline is the paper's algorithm as a competent graphics programmer writes it without special effort:
+// real fields, a byte per flag, whole-grid loops, one thread. It is frozen, because every speed ratio of this
+// project is to it.
 //
 // It runs the paper's law (docs/automaton.md, sections 6 to 9) in real numbers: 1 is a full cell, and the top
 // of the range of temperatures. The bounds that only integers need are left out, and so are vents and drains.
@@ -14,8 +14,9 @@
 
 namespace voxmelt::baseline {
 
-// plain: g++ -O2. native: -O3 -march=native, and rows along x without anything near them are skipped. The
-// variant is a part of every phase's symbol, so the linker cannot take the code of the one for the other.
+// The plain variant is built by g++ -O2. The native one has -O3 -march=native, and skips rows along x without
+// anything near them. The variant is a part of every phase's symbol, so the linker cannot take the code of
+// the one for the other.
 enum class Variant { plain, native };
 
 template <class Real, Variant variant = Variant::plain>
@@ -25,7 +26,8 @@ class Baseline {
   Baseline(const state::Volume& volume, const rule::Parameters& parameters)
       : fields_(volume), numbers_(numbers_of<Real>(parameters)) {}
 
-  // The phases of a step, in this order. `irradiance`: see irradiance_of; empty without radiation.
+  // A step runs these phases in this order. `irradiance` comes from irradiance_of, and is empty without
+  // radiation.
   void heat(std::span<const Real> irradiance = {});  // and melting
   void gravity();
   void spread(std::uint32_t step);

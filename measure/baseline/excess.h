@@ -1,4 +1,4 @@
-// Excess (end of section 4.2.2): what a cell holds above 1 climbs, as far up its column as it must.
+// Excess (end of section 4.2.2) is liquid of a cell above 1: it climbs as far up its column as it must.
 #pragma once
 
 #include <algorithm>

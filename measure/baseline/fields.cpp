@@ -1,4 +1,4 @@
-// Builds the fields and reads them. None of this is timed.
+// The functions here build the fields and read them. None of this is timed.
 #include "measure/baseline/fields.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Fields<Real>::Fields(const state::Volume& volume)
        {&amount, &energy, &temperature, &next_temperature, &amount_gain, &energy_gain, &heat_gain})
     field->assign(cells, 0);
   for (auto* flags : {&solid, &liquid, &pattern, &intensity, &filtered}) flags->assign(cells, 0);
-  inert.assign(cells, 1);  // the border stays so
+  inert.assign(cells, 1);  // the border stays inert
   row_marks.assign(cells / row, 0);
 
   for_each_slot(volume.grid, [&](int x, int y, int z, state::Slot slot) {
@@ -35,7 +35,7 @@ Fields<Real>::Fields(const state::Volume& volume)
     c.solid = volume.solid.test(x, y, z);
     c.liquid = volume.liquid.test(x, y, z);
     c.inert = volume.inert.test(x, y, z);
-    if (!c.inert) {  // there it is the height of the bed, no amount
+    if (!c.inert) {  // an inert cell's number is the height of the bed, no amount
       c.amount = static_cast<Real>(volume.amount[slot]) / 4096;
       c.energy = static_cast<Real>(volume.energy[slot]) / 4096;
       c.temperature = static_cast<Real>(volume.heat[slot]) / 65535;

@@ -1,4 +1,4 @@
-// The state of the baseline: a real number or a byte per cell and field.
+// The state of the baseline is a real number or a byte per cell and field.
 //
 // Cells are [z][y][x], x fastest, y up, with a border of one inert cell on all six sides, so that no loop
 // needs a case for the edge.
@@ -23,8 +23,8 @@ struct Fields {
   explicit Fields(const state::Volume& volume);
   ~Fields();
 
-  // These are always inlined, so that no copy compiled for one instruction set can be linked in place
-  // of another's.
+  // These are always inlined, so that no copy compiled for one instruction set can be linked in place of
+  // another's.
   [[gnu::always_inline]] std::size_t at(int x, int y, int z) const {
     return static_cast<std::size_t>(z + 1) * slice + static_cast<std::size_t>(y + 1) * row +
            static_cast<std::size_t>(x + 1);
@@ -44,13 +44,13 @@ struct Fields {
 
   std::vector<Real> next_temperature;
   std::vector<std::uint8_t> pattern;                      // directions that a cell gives to, a bit each
-  std::vector<Real> amount_gain, energy_gain, heat_gain;  // what spreading brings
+  std::vector<Real> amount_gain, energy_gain, heat_gain;  // the gains by spreading
   std::vector<std::uint8_t> intensity, filtered;          // the picture, before and after the low-pass filter
   std::vector<std::uint8_t> row_marks;                    // native variant: rows along x that hold anything
 };
 
-// A kernel's irradiance (1/16 temperature unit per step) as the baseline takes it: a
-// value per cell [z][y][x] without border, in temperature per step.
+// Converts a kernel's irradiance (1/16 temperature unit per step) for the baseline: a value per cell
+// [z][y][x] without border, in temperature per step.
 template <class Real>
 std::vector<Real> irradiance_of(const state::Grid& grid, const state::Field<std::uint16_t>& irradiance);
 

@@ -1,4 +1,4 @@
-// Gravity (Eqs. 2-6): every column from its bottom up, so that liquid in free air falls whole, a cell
+// Gravity (Eqs. 2-6) takes every column from its bottom up, so that liquid in free air falls whole, a cell
 // per step.
 #pragma once
 

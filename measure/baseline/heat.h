@@ -1,4 +1,4 @@
-// Heat: conduction (Eq. 1), convection in liquid, radiation, exchange with air; melting.
+// Heat has conduction (Eq. 1), convection in liquid, radiation and exchange with air. Melting follows.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void Baseline<Real, variant>::conduct(std::span<const Real> irradiance) {
   Fields<Real>& f = fields_;
   const Numbers<Real>& n = numbers_;
 
-  // The neighbours of Eq. 1: 6, 18 or 26, each with gamma / (pi l^2).
+  // Eq. 1 takes 6, 18 or 26 neighbours, each with gamma / (pi l^2).
   std::array<std::ptrdiff_t, 26> offsets{};
   std::array<Real, 26> weights{};
   int neighbours = 0;

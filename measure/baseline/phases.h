@@ -1,4 +1,4 @@
-// All phases. The files that compile them include this one, each with its own options.
+// This header includes all phases. The files that compile them include it, each with its own options.
 #pragma once
 
 #include "measure/baseline/excess.h"

@@ -1,4 +1,4 @@
-// Only the native variant asks this: is there anything in a row along x?
+// Only the native variant asks if there is anything in a row along x.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::baseline {
 
-// `first` is the index of the row's cell x = 0; flags are 0 or 1.
+// Tells if a row has a flag. `first` is the index of the row's cell x = 0; flags are 0 or 1.
 template <class Real>
 [[gnu::always_inline]] inline bool row_has(const Fields<Real>& f, const std::vector<std::uint8_t>& flags,
                                            std::size_t first) {
@@ -21,8 +21,8 @@ template <class Real>
   return row_has(f, f.liquid, first) || row_has(f, f.solid, first);
 }
 
-// Is the row marked, or a row that touches it in the same layer, or (`all_around`) any of the eight
-// around it?
+// Tells if the row is marked, or a row that touches it in the same layer, or (`all_around`) any of the eight
+// around it.
 template <class Real>
 [[gnu::always_inline]] inline bool marked_near(const Fields<Real>& f, std::size_t first, bool all_around) {
   const std::uint8_t* mark = f.row_marks.data() + first / f.row;

@@ -1,4 +1,4 @@
-// Spreading (Eqs. 7-20): find every cell's pattern, then let all cells give, then let them receive.
+// Spreading (Eqs. 7-20) finds every cell's pattern, then lets all cells give, then lets them receive.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::baseline {
 
-// A random number for a cell and a step.
+// Returns a random number for a cell and a step.
 [[gnu::always_inline]] inline std::uint32_t hashed(std::uint32_t cell, std::uint32_t step,
                                                    std::uint32_t seed) {
   std::uint32_t h = (cell + seed) ^ (step * 0x9E3779B9u);
@@ -20,14 +20,14 @@ namespace voxmelt::baseline {
   return h ^ (h >> 16);
 }
 
-// The face neighbours +x, -x, +z, -z, then the diagonals, as distances in the arrays.
+// Lists the face neighbours +x, -x, +z, -z, then the diagonals, as distances in the arrays.
 template <class Real>
 [[gnu::always_inline]] inline std::array<std::ptrdiff_t, 8> horizontal_neighbours(const Fields<Real>& f) {
   const auto z = static_cast<std::ptrdiff_t>(f.slice);
   return {1, -1, z, -z, 1 + z, 1 - z, -1 + z, -1 - z};
 }
 
-// It is more than 1 where the temperature makes the liquid thin.
+// Returns the mobility, which is more than 1 if the temperature makes the liquid thin.
 template <class Real>
 [[gnu::always_inline]] inline Real mobility(const Numbers<Real>& n, Real temperature) {
   if (!n.thermal_viscosity) return 1;
@@ -64,8 +64,7 @@ void Baseline<Real, variant>::find_patterns(std::uint32_t step) {
         if (n.support && f.air(i - f.row)) continue;
         if (f.energy[i] <= n.threshold && n.slump <= 0) continue;
 
-        // A direction is available if it is open and its cell stands lower, by what would flow and by
-        // a margin.
+        // A direction is available if it is open and its cell stands lower, by the flow and by a margin.
         const Real margin = f.energy[i] > n.threshold ? n.margin : n.slump;
         const Real flow = f.amount[i] * n.share * mobility(n, f.temperature[i]);
         unsigned available = 0;
@@ -139,7 +138,7 @@ void Baseline<Real, variant>::receive() {
           f.amount_gain[i] = 0;
           f.energy_gain[i] = 0;
           f.heat_gain[i] = 0;
-        } else if (f.pattern[i] != 0) {  // it gave: perhaps all it had
+        } else if (f.pattern[i] != 0) {  // it gave, perhaps all it had
           f.energy[i] = std::min(f.energy[i], f.amount[i]);
           if (f.amount[i] > 0) continue;
           f.liquid[i] = 0;

@@ -1,4 +1,4 @@
-// The picture (section 5): amounts become intensities 0..255, smoothed by a 3 x 3 x 3 low-pass filter.
+// The picture (section 5) turns amounts into intensities 0..255, smoothed by a 3 x 3 x 3 low-pass filter.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void Baseline<Real, variant>::update() {
         f.intensity[i] = static_cast<std::uint8_t>(std::min(f.amount[i], Real{1}) * 255 + Real{0.5});
     }
 
-  // The binomial kernel: 8 in the middle, 4 at faces, 2 at edges, 1 at corners; 64 in all.
+  // The kernel is binomial: 8 in the middle, 4 at faces, 2 at edges, 1 at corners; 64 in all.
   std::array<std::ptrdiff_t, 27> offsets{};
   std::array<int, 27> weights{};
   int taps = 0;

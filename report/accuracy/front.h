@@ -1,4 +1,4 @@
-// The reports on the front of speed against error: a JSON file, a table, a page, and a summary in words.
+// The front of speed against error has a JSON file, a table, a page, and a summary in words.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct FrontReport {
   double seconds = 0;
 
   int points() const;
-  int axes() const;  // along which at least one point was measured
+  int axes() const;  // axes along which at least one point was measured
 };
 
 std::string json_text(const FrontReport& report);

@@ -1,4 +1,5 @@
-// The page of the front: first in words which setting to take, then the pictures, then every point.
+// The page of the front first says in words which setting to take. Then it has the pictures, then every
+// point.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// docs/results/front.md: the front in words and tables, for readers of the sources.
+// The file docs/results/front.md has the front in words and tables, for readers of the sources.
 #include <fmt/format.h>
 
 #include <optional>

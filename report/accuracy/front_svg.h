@@ -1,4 +1,4 @@
-// Pictures of the front: dots on logarithmic axes, those that none beats joined and numbered.
+// The pictures of the front have dots on logarithmic axes. The dots that none beats are joined and numbered.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace voxmelt::accuracy {
 struct FrontDot {
   front::Place place;
   std::string hover{}, label{};  // the label stands beside the dot
-  std::size_t colour = 0;        // of the style sheet
+  std::size_t colour = 0;        // index of a colour in the style sheet
   bool usual = false;            // drawn with a ring
 };
 
@@ -22,7 +22,7 @@ struct FrontChart {
   bool logarithmic_x = true;
 };
 
-// An error of 0 lies at the lower end.
+// Draws the chart. An error of 0 lies at the lower end.
 std::string front_svg(const FrontChart& chart);
 
 }  // namespace voxmelt::accuracy

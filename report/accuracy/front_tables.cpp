@@ -1,4 +1,4 @@
-// front.json and front.csv: every number that was measured.
+// The files front.json and front.csv have every number that was measured.
 #include <fmt/format.h>
 
 #include <cmath>

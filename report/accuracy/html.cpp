@@ -1,4 +1,4 @@
-// The page: what was asked, every answer beside the exact one, and pictures of both.
+// The page shows each question, every answer beside the exact one, and pictures of both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using page::escaped;
 
-// With true minus signs.
+// Writes true minus signs.
 std::string typeset(const std::string& number) {
   std::string out;
   for (const char c : number) out += c == '-' ? std::string("−") : std::string(1, c);

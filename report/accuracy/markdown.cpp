@@ -1,4 +1,4 @@
-// docs/results/accuracy.md: the tables of the page, for readers of the sources.
+// The file docs/results/accuracy.md has the tables of the page, for readers of the sources.
 #include <fmt/format.h>
 
 #include <cstddef>

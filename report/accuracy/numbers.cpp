@@ -1,4 +1,4 @@
-// Numbers as text for readers.
+// The functions here write numbers for readers.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The reports on the cases: a JSON file, a table of comma-separated values, a page, and a summary.
+// The cases are reported in a JSON file, a table of comma-separated values, a page, and a summary.
 #pragma once
 
 #include <string>
@@ -26,13 +26,13 @@ struct Report {
   int missed() const;  // rows that do not pass their gate
 };
 
-// "heat_kernel/6 neighbours, gamma 0.3" is the full name of a row: case and setting.
+// The full name of a row is its case and setting, as in "heat_kernel/6 neighbours, gamma 0.3".
 std::string json_text(const Report& report);
 std::string csv_text(const Report& report);
 std::string html_text(const Report& report);
 std::string markdown_text(const Report& report);
 
-// A number with as many digits as a reader wants; "1.25 %" for relative errors.
+// Writes a number with as many digits as a reader wants, and a relative error as "1.25 %".
 std::string number_text(double value);
 std::string error_text(const Row& row);
 std::string gate_text(const Row& row);            // "1 %"; "reported" without a gate

@@ -99,7 +99,7 @@ std::string chart_svg(const Chart& chart) {
 std::string overview_svg(const Report& report) {
   constexpr double kRow = 19, kNames = 150, kEnd = 1040, kFurthest = 1000;
   const double middle = kNames + (kEnd - kNames) / 2;
-  // From a thousandth of the gate to a thousand times. An error of 0 is within a gate of 0.
+  // The axis goes from a thousandth of the gate to a thousand times. An error of 0 is within a gate of 0.
   const auto place = [&](const Row& row) {
     const double error = std::abs(row.error()), ratio = error == 0 ? 0 : error / *row.gate;
     const double decades = std::isfinite(ratio) ? std::log10(std::max(ratio, 1 / kFurthest)) : 3;

@@ -1,4 +1,4 @@
-// Pictures of the page, drawn as SVG in the page's own colours (its style sheet names them).
+// The pictures of the page are drawn as SVG in the page's own colours, which its style sheet names.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ inline constexpr std::size_t kColours = 7;  // --c0 .. --c6 of the style sheet
 
 std::string chart_svg(const Chart& chart);
 
-// Every row with a gate: |error| over the gate, on a logarithmic axis with the gate in its middle.
+// Draws every row with a gate: |error| over the gate, on a logarithmic axis with the gate in its middle.
 std::string overview_svg(const Report& report);
 
 }  // namespace voxmelt::accuracy

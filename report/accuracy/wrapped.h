@@ -1,4 +1,4 @@
-// Text for docs, in lines of at most 96 columns.
+// Text for docs is wrapped to lines of at most 96 columns.
 #pragma once
 
 #include <string>

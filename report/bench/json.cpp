@@ -83,7 +83,7 @@ json case_json(const Case& one) {
           {"ratio_to_native_baseline", number(one.ratio_to_native)}};
 }
 
-// Times in milliseconds.
+// Writes times in milliseconds.
 json drawing_json(const Drawing& one) {
   json rays, timings = json::array();
   for (std::size_t i = 0; i < kSettings.size(); ++i) rays[kSettingNames[i]] = one.rays[i];

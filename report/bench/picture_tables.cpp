@@ -1,4 +1,4 @@
-// The tables of docs/results/performance_picture.md, and that of all drawings.
+// The tables here are those of docs/results/performance_picture.md, and that of all drawings.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -30,7 +30,7 @@ std::string drawing_row(const Drawing& drawing, const DrawingTiming& timing, boo
                             timing.threads == 1 ? milliseconds(drawing.encode) : "");
 }
 
-// Those of the widest set, or all.
+// Writes the drawings of the widest set, or all.
 std::string drawing_table(const Findings& findings, const char* name, bool all) {
   std::string text = begin(name,
                            "| scene | instruction set | threads | field, ms | light and bricks, ms | nothing "

@@ -1,4 +1,4 @@
-// The roofline plot, written as SVG by hand: the widest instruction set on one thread. A case stands at the
+// The roofline plot is written as SVG by hand: the widest instruction set on one thread. A case stands at the
 // operations per byte that the definition needs and at the operations per second that were done. Its number
 // leads to its name, its colour tells a scene from a dense volume.
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ struct Scale {
 };
 
 constexpr struct {
-  std::string_view prefix, what, colour;  // of the workloads' names
+  std::string_view prefix, what, colour;  // the prefix is that of the workloads' names
 } kKinds[] = {{"scene:", "scenes: active cells only", "#b5651d"}, {"dense:", "dense volumes", "#2b5fa8"}};
 
 std::string_view colour(const Case& one) {
@@ -42,7 +42,7 @@ std::string_view colour(const Case& one) {
   return "#666666";
 }
 
-// The widest instruction set: the last one of the run for which the machine's rates are known.
+// Returns the widest instruction set: the last one of the run for which the machine's rates are known.
 std::string widest(const Findings& findings) {
   std::string result;
   for (const Case& one : findings.cases)
@@ -93,8 +93,8 @@ std::string axes(const Scale& scale) {
 
 std::string roofs(const Findings& findings, const Scale& scale) {
   std::string svg;
-  // Slopes are bandwidths on one thread: that of the smallest footprint measured (caches) and that of
-  // the largest.
+  // Slopes are bandwidths on one thread: that of the smallest footprint measured (caches) and that of the
+  // largest.
   const std::pair<std::size_t, int>* ends[2] = {nullptr, nullptr};
   for (const auto& [key, found] : findings.machine.bandwidths()) {
     if (key.second != 1) continue;
@@ -130,7 +130,7 @@ std::string roofs(const Findings& findings, const Scale& scale) {
 
 double rate_of(const Case& one) { return one.active_per_second() * one.work.operations(); }
 
-// Those on one thread with the widest instruction set.
+// Returns the cases on one thread with the widest instruction set.
 std::vector<const Case*> shown_cases(const Findings& findings) {
   const std::string set = widest(findings);
   std::vector<const Case*> shown;
@@ -139,7 +139,7 @@ std::vector<const Case*> shown_cases(const Findings& findings) {
   return shown;
 }
 
-// Room for all rates, and for that of additions.
+// Makes room for all rates, and for that of additions.
 Scale scale_of(const Findings& findings, const std::vector<const Case*>& shown) {
   double low = 1e12, high = std::max(1e9, rates_of(findings, widest(findings)).add);
   for (const Case* one : shown) {
@@ -150,7 +150,7 @@ Scale scale_of(const Findings& findings, const std::vector<const Case*>& shown) 
   return {low, high * 1.5};
 }
 
-// The marks of cases, with their numbers. No mark covers another.
+// Draws the marks of cases, with their numbers. No mark covers another.
 class Marks {
  public:
   explicit Marks(const Scale& scale) : scale_(scale) {}
@@ -173,7 +173,7 @@ class Marks {
   struct Mark {
     double x, y;
   };
-  // Beside the marks that are there already, as near to its own place as possible.
+  // Finds a place beside the marks that are there already, as near to its own place as possible.
   double free_place(double x, double y) const {
     double best = x;
     for (int k = 0; k < 60; ++k) {

@@ -1,4 +1,5 @@
-// The tables of docs/results/performance.md: most show the widest instruction set on all threads.
+// The tables here are those of docs/results/performance.md. Most show the widest instruction set on all
+// threads.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +23,8 @@ std::string machine_text(const Findings& findings) {
       size_text(m.memory_bytes), findings.load_before, findings.load_after);
 }
 
-// The last case of each workload: the implementations are timed from the narrowest to the widest, each from
-// few threads to many.
+// Returns the last case of each workload. The implementations are timed from the narrowest to the widest,
+// each from few threads to many.
 std::vector<const Case*> widest(const Findings& findings, std::string_view kind, Subject subject) {
   std::vector<const Case*> result;
   for (const Case& one : findings.cases) {
@@ -76,7 +77,7 @@ std::string dense_table(const Findings& findings) {
   return text + "\n";
 }
 
-// Of flow and heat in the scenes that are bounded: what they take, and the least.
+// Sets the time of flow and heat against the least time, in the scenes that are bounded.
 std::string bound_table(const Findings& findings) {
   const std::vector<const Case*> flows = widest(findings, "scene:", Subject::flow);
   std::string text = "<!-- table: bounds -->\n" + caption(flows);
@@ -99,7 +100,7 @@ std::string bound_table(const Findings& findings) {
   return text + "\n";
 }
 
-// Flow of full volumes under the paper's law on one thread, nanoseconds a cell.
+// Shows the flow of full volumes under the paper's law on one thread, in nanoseconds a cell.
 std::string dense_bound_table(const Findings& findings) {
   std::string text = "<!-- table: densebounds -->\n";
   text +=

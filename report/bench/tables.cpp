@@ -1,5 +1,5 @@
-// The tables of docs/results/performance_tables.md: every case, and the machine's rates that they are held
-// against.
+// The tables here are those of docs/results/performance_tables.md: every case, and the machine's rates that
+// they are held against.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::string scaling_table(const Findings& findings) {
   return text + "\n";
 }
 
-// What is counted for each kind of cell that was timed: a table per subject and law, a column per kind.
+// Holds the counts of one kind of cell that was timed. A subject and law has a table, with a column per kind.
 struct Kind {
   std::string workloads;
   const Work* work;
@@ -105,7 +105,7 @@ std::vector<Kind> kinds(const Findings& findings, Subject subject, rule::Law law
   return result;
 }
 
-// Every term of every kind once, each after the one that it follows in its own kind.
+// Lists every term of every kind once, each after the one that it follows in its own kind.
 std::vector<std::string> terms(const std::vector<Kind>& kinds) {
   std::vector<std::string> all;
   for (const Kind& kind : kinds) {

@@ -1,4 +1,4 @@
-// What the page of a picture and that of the whole machine show alike: the ray caster's report.
+// The page of a picture and that of the whole machine share the ray caster's report.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The pictures with axes: activity over time, occupancy, bounds, predicted against simulated.
+// The pictures with axes show activity over time, occupancy, bounds, and predicted against simulated cycles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string tick_text(double value) {
   return fmt::format("{:g}", value);
 }
 
-// Both axes with their marks and names.
+// Draws both axes with their marks and names.
 std::string frame(const Axis& x, const Axis& y, const std::string& x_label, const std::string& y_label) {
   std::string svg;
   for (const double tick : y.ticks()) {
@@ -52,7 +52,7 @@ std::string begin(const std::string& label) {
   return fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", kWidth, kHeight, label);
 }
 
-// One class of a row of the timeline: a band between two stairs.
+// Draws one class of a row of the timeline: a band between two stairs.
 std::string band(const std::string& css, const std::vector<double>& x, const std::vector<double>& lower,
                  const std::vector<double>& upper) {
   std::string up, down;

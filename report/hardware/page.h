@@ -1,4 +1,4 @@
-// The pages of `voxmelt verify --html`: each from the JSON report of its run, and from nothing else.
+// The pages of `voxmelt verify --html` are each made from the JSON report of its run, and from nothing else.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace voxmelt::hwmodel {
 
-// `title` says which scene and steps.
+// Each page's `title` says which scene and steps it shows.
 std::string pipeline_page(const nlohmann::ordered_json& report, const std::string& title);
 std::string picture_page(const nlohmann::ordered_json& report, const std::string& title);
 std::string machine_page(const nlohmann::ordered_json& report, const std::string& title);

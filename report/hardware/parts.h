@@ -1,5 +1,5 @@
-// The parts of the pages of `voxmelt verify`. A page is drawn from the JSON report alone, and every number
-// that is written on it stands there. Only the marks along an axis (class "tick") do not.
+// The pages of `voxmelt verify` are made of these parts. A page is drawn from the JSON report alone, and
+// every number that is written on it stands there. Only the marks along an axis (class "tick") do not.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,17 +15,17 @@ extern const char* const kStyle;  // beside the style sheet of all pages
 std::string number(const Json& value, int digits = 2);  // "854,688", "0.93"; digits behind the point of reals
 
 std::string tally(const std::string& number, const std::string& what, const char* css = "");
-// `title` and `about` are HTML.
+// Makes a card. `title` and `about` are HTML.
 std::string card(const std::string& title, const std::string& about, const std::string& body);
 
 struct Key {
   std::string css, name;  // `css` colours it
 };
 std::string legend(const std::vector<Key>& keys);
-// The classes of a stage's cycles that a report has, in the order in which they are drawn.
+// Returns the classes of a stage's cycles that a report has, in the order in which they are drawn.
 std::vector<Key> classes_of(const Json& cycles);
 
-// Horizontal bars, one below the other, on one scale.
+// Horizontal bars lie one below the other, on one scale.
 struct Segment {
   double value = 0;
   std::string css, hover;
@@ -38,16 +38,16 @@ std::string bars(const std::vector<Bar>& rows, const std::string& label);
 std::string bars_of_cycles(const Json& stages);  // with "name", maybe "cascade", and "cycles"
 
 std::string name_of_stage(const Json& stage, bool cascaded);
-bool cascaded(const Json& stages);  // are there several time steps?
+bool cascaded(const Json& stages);  // tells if there are several time steps
 
-// Stacked over time; `timeline` of the report.
+// Draws the `timeline` of the report, stacked over time.
 std::string timeline(const Json& timeline);
-// How often a channel held how many tokens.
+// Shows how often a channel held how many tokens.
 std::string histogram(const Json& channel);
-// Work a cycle against the bytes that a memory moves in a cycle, and the bounds.
+// Holds work a cycle against the bytes that a memory moves in a cycle, and the bounds.
 struct Roof {
-  std::string caption, unit;  // what is counted: "cell-steps"
-  Json compute, per_byte;     // of the work: at most in a cycle; with the bytes that it takes
+  std::string caption, unit;  // counted unit: "cell-steps"
+  Json compute, per_byte;     // most work in a cycle; work per byte that moves
   struct Bound {
     Json value;
     std::string name;
@@ -58,10 +58,10 @@ struct Roof {
     std::string name;
   };
   std::vector<Reached> reached;
-  Json most_bytes{};  // of the memory in a cycle; null: it is not drawn
+  Json most_bytes{};  // most bytes of the memory in a cycle; null: it is not drawn
 };
 std::string roofline(const Roof& roof);
-// Simulated against predicted cycles; each with "cycles" and "predicted_cycles", and its hover text.
+// Draws simulated against predicted cycles, each with "cycles" and "predicted_cycles", and its hover text.
 std::string against_prediction(const Json& trains, const std::vector<std::string>& hover);
 
 }  // namespace voxmelt::hwmodel::parts

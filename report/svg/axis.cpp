@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kFewTicks = 6;
 
-// 1, 2 or 5 times a power of ten: about kFewTicks of it make `range`.
+// Returns 1, 2 or 5 times a power of ten, so that about kFewTicks of it make `range`.
 double tick_distance(double range) {
   const double rough = range / kFewTicks, decade = std::pow(10, std::floor(std::log10(rough)));
   for (const double step : {1., 2., 5.})

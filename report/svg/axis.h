@@ -1,4 +1,4 @@
-// A scale from numbers to a length, linear or logarithmic, and its ticks.
+// An axis is a scale from numbers to a length, linear or logarithmic, with its ticks.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@ namespace voxmelt::page {
 
 class Axis {
  public:
-  // From `low` to `high`, rounded outwards to ticks, onto from..to.
+  // Maps `low` to `high`, rounded outwards to ticks, onto from..to.
   Axis(double low, double high, bool logarithmic, double from, double to);
   double operator()(double value) const;
   const std::vector<double>& ticks() const { return ticks_; }

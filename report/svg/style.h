@@ -1,4 +1,4 @@
-// The page's style sheet: one column of cards, light or dark as the reader's system is.
+// The page's style sheet makes one column of cards, light or dark as the reader's system is.
 #pragma once
 
 namespace voxmelt::page {

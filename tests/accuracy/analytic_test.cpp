@@ -1,4 +1,4 @@
-// The exact answers against published numbers, and against the equations that they solve.
+// The exact answers are held against published numbers, and against the equations that they solve.
 #include "accuracy/analytic.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// Lambda of the one-phase problem, to six digits, as tables have it.
+// Tables have lambda of the one-phase problem to six digits.
 TEST(Analytic, StefanLambda) {
   EXPECT_NEAR(stefan_lambda(0.041), 0.142215, 1e-6);
   EXPECT_NEAR(stefan_lambda(0.1), 0.220016, 1e-6);
@@ -30,8 +30,8 @@ TEST(Analytic, TwoPhaseStefanLambda) {
   }
 }
 
-// The front moves as fast as the latent heat of the difference of the two flows of heat lets it: slopes taken
-// by finite differences of the temperature, which must also solve the heat equation on both sides.
+// The front moves as fast as the latent heat of the difference of the two flows of heat lets it. Slopes are
+// taken by finite differences of the temperature, which must also solve the heat equation on both sides.
 TEST(Analytic, TwoPhaseStefanTemperatureKeepsItsBooks) {
   const double d = 0.1, time = 3000, stefan = 1, cold = 0.5, e = 1e-3;
   const double front = 2 * stefan_lambda(stefan, cold) * std::sqrt(d * time);
@@ -57,7 +57,7 @@ TEST(Analytic, SlabStartsColdAndEndsWarm) {
   EXPECT_NEAR(slab_temperature(8, 400, 0.1, 64), 1 - std::erf(8 / (2 * std::sqrt(40.0))), 1e-6);
 }
 
-// Huppert 1982: 0.894 and 1.411; the volumes under the profiles are those that were asked for.
+// Huppert (1982) has 0.894 and 1.411. The volumes under the profiles are those that were asked for.
 TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR((Drop{3, 1}.front(1)), 0.89391, 1e-5);
   EXPECT_NEAR((Dam{3, 1}.front(1)), 1.41124, 1e-5);
@@ -78,8 +78,8 @@ TEST(Analytic, HuppertConstants) {
   EXPECT_NEAR(std::sqrt(second / volume), drop.rms_radius(100), 1e-3);
 }
 
-// Huppert's 0.715 for the front. The other digits are of a second program: it integrates the profile in y
-// instead of log y, for phi^4 / 4 and the flux. The volume is the flux times the time.
+// Huppert has 0.715 for the front. The other digits are those of a second program: it integrates the profile
+// in y instead of log y, for phi^4 / 4 and the flux. The volume is the flux times the time.
 TEST(Analytic, CurrentOfConstantFlux) {
   const FedCurrent unit{3, 1};
   EXPECT_NEAR(unit.front(1), 0.715016, 1e-5);
@@ -97,7 +97,7 @@ TEST(Analytic, CurrentOfConstantFlux) {
   EXPECT_EQ(current.height(1.001 * end, 100), 0);
 }
 
-// sin(a) cos(a)^3 by trigonometry.
+// Trigonometry gives sin(a) cos(a)^3.
 TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
   for (const double slope : {0.1, 0.25, 0.5, 1.0}) {
     const double angle = std::atan(slope);
@@ -106,8 +106,9 @@ TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
   EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
 }
 
-// By hand. 600 cells, shafts of 60 columns, a roof over 60 more at height 4: 60 h + 60 (4 + o) = 600 and
-// h - 4 = 8 o, so h = 52 / 9. 243 cells, 18 columns, 9 roofed at 3: 18 h + 9 (3 + o) = 243, so h = 195 / 17.
+// By hand, 600 cells in shafts of 60 columns have a roof over 60 more at height 4. So 60 h + 60 (4 + o) = 600
+// and h - 4 = 8 o, which gives h = 52 / 9. Then 243 cells in 18 columns, 9 of them roofed at 3, give 18 h + 9
+// (3 + o) = 243, so h = 195 / 17.
 TEST(Analytic, ConduitLevel) {
   EXPECT_NEAR(conduit_level(600, 60, 60, 4, 8), 52.0 / 9, 1e-12);
   EXPECT_NEAR(conduit_level(243, 18, 9, 3, 8), 195.0 / 17, 1e-12);
@@ -123,7 +124,7 @@ TEST(Analytic, Rest) {
   EXPECT_NEAR(ball_intercepts(1, 1), 2 * std::numbers::pi, 1e-12);          // touching: half of all
 }
 
-// Finite volumes against the similarity profile: from depth 4 to 2, and the volume stays.
+// Finite volumes follow the similarity profile from depth 4 to 2, and the volume stays.
 TEST(Analytic, LubricationFlowFollowsHuppert) {
   constexpr int kParts = 4;
   const Dam dam = dam_of_depth(0.05, 4, 24);

@@ -1,5 +1,5 @@
-// Hard cases of the physics, each with its number. Others stand where their rule is tested: the list is
-// in docs/verification.md.
+// Each hard case of the physics has its number. Others stand where their rule is tested: the list is in
+// docs/verification.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ run::Simulation simulate_with(const step::Implementation& implementation, const 
   return {p, v, implementation};
 }
 
-// One-phase Stefan problems far from the usual: hardly any heat, and ten times the latent heat. Lambda solves
-// lambda exp(lambda^2) erf(lambda) = St / sqrt(pi); 0.070593 and 1.256972 by bisection.
+// These one-phase Stefan problems are far from the usual: hardly any heat, and ten times the latent heat.
+// Lambda solves lambda exp(lambda^2) erf(lambda) = St / sqrt(pi). It is 0.070593 and 1.256972 by bisection.
 TEST(HardCase, StefanNumbersOfAHundredthAndOfTen) {
   struct {
     double stefan, lambda;
@@ -46,8 +46,8 @@ TEST(HardCase, StefanNumbersOfAHundredthAndOfTen) {
 }
 
 // Hot and cold cells alternate. In a step their difference is multiplied by 1 - 12 gamma / pi with 6 and 18
-// neighbours (edges join cells of one colour), and by 1 - 16 gamma / (3 pi) besides with 26. So it is halved
-// at gamma pi / 8, it stays at pi / 6, and corners leave a ninth of it there.
+// neighbours, as edges join cells of one colour. With 26 it is also multiplied by 1 - 16 gamma / (3 pi). So
+// it is halved at gamma pi / 8, it stays at pi / 6, and corners leave a ninth of it there.
 TEST(HardCase, ACheckerboardOfHeatIsDamped) {
   struct {
     int neighbours, face;  // 65536 gamma / pi
@@ -89,7 +89,7 @@ TEST(HardCase, MeltsAtExactlyTheMeltingPoint) {
   }
 }
 
-// A tank with walls one cell thick, filled to the brim with over-full cells, and its lid: nothing seeps out.
+// Nothing seeps out of a tank with walls one cell thick and a lid, filled to the brim with over-full cells.
 TEST(HardCase, WallsOfOneCellAreTight) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(20);
@@ -110,7 +110,7 @@ TEST(HardCase, WallsOfOneCellAreTight) {
   }
 }
 
-// A drop of 65535 units falls apart: nothing is lost, and in the end no cell in the open holds more than one.
+// A drop of 65535 units falls apart. Nothing is lost, and in the end no cell in the open holds more than one.
 TEST(HardCase, TheLargestAmountFalls) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     Volume v(Grid{9, 24, 9});
@@ -143,7 +143,7 @@ TEST(HardCase, SolidAndEmptyBlocksStayAsTheyAre) {
   }
 }
 
-// Sides of 1, 2, 63, 64 and 65 cells along each axis: every implementation gives the reference's bits.
+// With sides of 1, 2, 63, 64 and 65 cells along each axis, every implementation gives the reference's bits.
 TEST(HardCase, SidesOfOneTwoAndAroundAWord) {
   for (const int side : {1, 2, 63, 64, 65})
     for (const int axis : {0, 1, 2})

@@ -1,4 +1,4 @@
-// Measurements of volumes whose numbers are known.
+// Volumes whose numbers are known are measured.
 #include "accuracy/measure.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Measure, ColumnsAreAmountsOfLiquidOnly) {
   EXPECT_DOUBLE_EQ(columns.x_of(0), -1);
 }
 
-// By hand: two columns of depth 1 and 3 at x = -2 and +2 of five.
+// By hand, two columns of depth 1 and 3 are at x = -2 and +2 of five.
 TEST(Measure, MomentsOfTwoColumns) {
   Volume v(Grid{5, 4, 1});
   put_column(v, 0, 0, 1);
@@ -51,8 +51,8 @@ TEST(Measure, MomentsOfTwoColumns) {
   EXPECT_NEAR(m.a4, 1 + 2.0 / 3, 1e-12);  // all of it on an axis
 }
 
-// A disc's rms radius is R / sqrt 2 and it is round; a square's four-fold moment is that of the integral:
-// 1 + (2/3) (28/45 - 8/9) / (28/45).
+// A disc's rms radius is R / sqrt 2 and it is round. A square's four-fold moment is that of the integral: 1 +
+// (2/3) (28/45 - 8/9) / (28/45).
 TEST(Measure, RadiusAndRoundness) {
   const auto is_in = [](double x, double z) { return std::hypot(x, z) <= 50 ? 1. : 0.; };
   const Volume disc = liquid(Grid{121, 2, 121}, is_in);
@@ -88,7 +88,8 @@ TEST(Measure, SecondMomentOfHeat) {
   EXPECT_NEAR(heat_second_moment(v), 108, 0.1);
 }
 
-// Melting point 1,000, latent heat 4,000: cold, half, all, more than all; a hot wall does not count.
+// With melting point 1,000 and latent heat 4,000, cells are cold, half molten, molten and hotter. A hot wall
+// does not count.
 TEST(Measure, MeltedCells) {
   Volume v(Grid{1, 5, 1});
   put_inert(v, 0, 4, 0);

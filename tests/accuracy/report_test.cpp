@@ -1,4 +1,4 @@
-// What is written: gates decide, numbers are those of the rows, and each text can be read back.
+// The reports are tested: gates decide, numbers are those of the rows, and each text can be read back.
 #include "report/accuracy/report.h"
 
 #include <gtest/gtest.h>
@@ -91,8 +91,8 @@ TEST(Report, PageIsSelfContainedAndDrawsEveryPoint) {
   EXPECT_EQ(count(page, "prefers-color-scheme: dark"), 1);
 }
 
-// The picture of all gates: 0 over a gate of 0 is at its left end, with what passes, and 1 over 0 at its
-// right.
+// In the picture of all gates, 0 over a gate of 0 is at the left end, with the rows that pass. 1 over 0 is at
+// the right end.
 TEST(Report, ExactErrorsAreWithinExactGates) {
   const std::string page =
       html_text(report({row(0, 0, Measure::absolute, 0), row(1, 0, Measure::absolute, 0)}));

@@ -1,4 +1,4 @@
-// Solid angles of cells that geometry knows.
+// Geometry knows the solid angles of these cells.
 #include "accuracy/silhouette.h"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 namespace voxmelt::accuracy {
 namespace {
 
-// A rectangle of half sides a and b, seen from the distance d in front of its middle.
+// Returns the solid angle of a rectangle of half sides a and b, from the distance d in front of its middle.
 double of_rectangle(double a, double b, double d) {
   return 4 * std::asin(a * b / std::sqrt((a * a + d * d) * (b * b + d * d)));
 }
 
-// A block of 8 x 4 x 8 cells: only its nearest face counts, by its own distance.
+// A block has 8 x 4 x 8 cells. Only its nearest face counts, by its own distance.
 TEST(Silhouette, BlockFromTheFront) {
   state::Volume v(state::Grid{16, 16, 16});
   for (int z = 4; z < 12; ++z)
@@ -27,7 +27,7 @@ TEST(Silhouette, BlockFromTheFront) {
   EXPECT_EQ(solid_angle(state::Volume(state::Grid{16, 16, 16}), {8, 8, 112}), 0);
 }
 
-// From far away a cube of side s seen along (1, 1, 1) is a hexagon of area sqrt(3) s^2; along (1, 1, 0) it is
+// From far away a cube of side s seen along (1, 1, 1) is a hexagon of area sqrt(3) s^2. Along (1, 1, 0) it is
 // a rectangle of sqrt(2) s^2. Cells behind others add nothing.
 TEST(Silhouette, CubeFromItsCornerAndItsEdge) {
   state::Volume v(state::Grid{20, 20, 20});

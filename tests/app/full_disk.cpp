@@ -1,5 +1,5 @@
-// A disk with little room, for tests (LD_PRELOAD): FULL_DISK_BYTES bytes can be written to files, and no
-// more. Removing the reserve of an output folder gives its room back.
+// The library makes a disk with little room, for tests (LD_PRELOAD): FULL_DISK_BYTES bytes can be written to
+// files, and no more. Removing the reserve of an output folder gives its room back.
 #include <dlfcn.h>
 
 #include <atomic>

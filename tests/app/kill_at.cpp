@@ -1,7 +1,9 @@
-// A death between two system calls, for tests (LD_PRELOAD): a signal comes just before the n-th call that
-// changes files or folders. With KILL_TORN it comes in the midst of one, where half of the bytes are written.
+// The library kills a program between two system calls, for tests (LD_PRELOAD). A signal comes just before
+// the n-th call that changes files or folders. With KILL_TORN it comes in the midst of one, when half of the
+// bytes are written.
 //
-// KILL_AT: n, from 1 on. KILL_SIGNAL: its number (9). KILL_LOG: a file that gets the names of all such calls.
+// KILL_AT is n, from 1 on. KILL_SIGNAL is the signal's number (9). KILL_LOG is a file that gets the names of
+// all such calls.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdio_ext.h>
@@ -63,7 +65,7 @@ bool creates(int flags) { return (flags & (O_CREAT | O_TRUNC)) != 0; }
 
 #define ORIGINAL(name, type) static const auto real = original<type>(name)
 
-// Calls that are handed on as they are.
+// These calls are handed on as they are.
 #define PASS(result, name, parameters, types, ...) \
   extern "C" result name parameters {              \
     ORIGINAL(#name, result types);                 \
@@ -89,7 +91,7 @@ PASS(int, remove, (const char* path) noexcept, (const char*), path)
 PASS(ssize_t, sendfile, (int to, int from, off_t* offset, std::size_t count) noexcept,
      (int, int, off_t*, std::size_t), to, from, offset, count)
 
-// Calls that change something only sometimes.
+// These calls change something only sometimes.
 extern "C" int open(const char* path, int flags, ...) {
   ORIGINAL("open", int(const char*, int, ...));
   va_list more;

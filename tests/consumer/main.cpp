@@ -1,5 +1,5 @@
-// consumer SCENE STEPS: the line that `voxmelt digest` prints, by the library. Half way the run goes through
-// a checkpoint, and is drawn.
+// The program `consumer SCENE STEPS` prints the line of `voxmelt digest`, by the library. Half way the run
+// goes through a checkpoint, and is drawn.
 #include <voxmelt/voxmelt.h>
 #include <cstdint>
 #include <cstdio>

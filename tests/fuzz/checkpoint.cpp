@@ -1,7 +1,7 @@
-// A checkpoint. Checksums refuse nearly every changed byte, so the target makes them fit: behind them lie the
-// readers of blocks, of the head, of cells and of what a run has recorded.
-// The input is a file as it stands, or text that the target packs: a line `KIND FIRST COUNT`, then a line
-// that the block holds; cells are hexadecimal digits.
+// The target reads a checkpoint. Checksums refuse nearly every changed byte, so the target makes them fit:
+// behind them lie the readers of blocks, of the head, of cells and of the run's record. The input is a file
+// as it stands, or text that the target packs. That has a line `KIND FIRST COUNT`, then a line that the block
+// holds. Cells are hexadecimal digits.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ void put_number(std::string& file, std::size_t at, std::uint64_t number) {
   std::memcpy(file.data() + at, &number, sizeof number);
 }
 
-// The blocks get the checksums that they should have, and so does the last one, which holds those of the
-// others.
+// Gives the blocks the checksums that they should have. The last one, which holds those of the others, gets
+// its own, too.
 void make_checksums_fit(std::string& file) {
   std::string sums;
   for (std::size_t at = kBegin; at + kHeader + kSum <= file.size();) {

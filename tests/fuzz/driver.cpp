@@ -1,7 +1,7 @@
-// Runs a target without libFuzzer, by any compiler: every file of a corpus, then changed ones for a while.
-// It takes [--seconds N] [--seed S] [--dictionary FILE] FILE|FOLDER...
-// What crashes, hangs, or ends otherwise than by an error of the project's own is written beside: its bytes
-// are in `fuzz-found`, and the file is named. Exit code 1.
+// The driver runs a target without libFuzzer, by any compiler: every file of a corpus, then changed ones for
+// a while. It takes [--seconds N] [--seed S] [--dictionary FILE] FILE|FOLDER... An input fails that crashes,
+// hangs, or ends otherwise than by an error of the project's own. Its bytes are written to `fuzz-found`, and
+// the file is named. The exit code is 1.
 #include <fcntl.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -29,14 +29,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 namespace voxmelt::fuzz {
 namespace {
 
-// For one input, of the processor's time: other programs on the machine do not count.
+// The limit for one input is in the processor's time: other programs on the machine do not count.
 #ifdef VOXMELT_SANITIZED
 constexpr int kMostSeconds = 200;
 #else
 constexpr int kMostSeconds = 20;
 #endif
 
-// What is being tried, for the handler of signals. Nothing allocates there, and only system calls are made.
+// The handler of signals needs the input that is being tried. Nothing allocates there, and only system calls
+// are made.
 const std::string* g_input = nullptr;
 const char* g_name = "";
 
@@ -142,7 +143,7 @@ int main(int argc, char** argv) {
   using namespace voxmelt::fuzz;
   g_name = argv[0];
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF}) std::signal(signal, keep);
-  // A stack that has run over has no room for a handler: it gets its own.
+  // After a stack overflow there is no room for a handler, so that it gets a stack of its own.
   static std::array<char, 1 << 16> stack;
   stack_t own{};
   own.ss_sp = stack.data();

@@ -1,4 +1,4 @@
-// A file for --hw, and what stands behind --set hw.
+// The target reads a file for --hw, and the text behind --set hw.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// An ESRI ASCII grid, drawn over a small grid.
+// The target reads an ESRI ASCII grid, drawn over a small grid.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// An OBJ file, voxelised in a small grid.
+// The target reads an OBJ file, voxelised in a small grid.
 #include <cstddef>
 #include <cstdint>
 

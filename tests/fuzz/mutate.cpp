@@ -109,7 +109,7 @@ void Mutator::change() {
     case 6:
       if (!words_.empty()) put(words_[below(words_.size())]);
       break;
-    case 7: {  // a piece many times, at its place: what nests then nests deeply
+    case 7: {  // repeats a piece at its place, so that nesting becomes deep
       const std::string piece = input_.substr(at, 1 + below(6));
       if (piece.empty()) break;
       const std::size_t times = below((below(4) == 0 ? kMostBytes : 600) / piece.size());

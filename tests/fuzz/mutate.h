@@ -1,5 +1,5 @@
-// Inputs made from a corpus: bits flipped, pieces taken out, doubled, moved from one file to another, numbers
-// made extreme, words of a dictionary put in.
+// Inputs are made from a corpus. Bits are flipped, and pieces are taken out, doubled, or moved from one file
+// to another. Numbers become extreme, and words of a dictionary are put in.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace voxmelt::fuzz {
 
-// The words of a dictionary in libFuzzer's form: one in double quotes a line, with \\, \" and \xAB.
+// Reads the words of a dictionary in libFuzzer's form: one in double quotes a line, with \\, \" and \xAB.
 std::vector<std::string> dictionary(const std::string& text);
 
 class Mutator {

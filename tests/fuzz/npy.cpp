@@ -1,4 +1,4 @@
-// A field of [start], beside five good ones: the first byte says which.
+// The target reads a field of [start], beside five good ones. The first byte says which.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Field {
 constexpr std::array<Field, 6> kFields{
     {{"solid", 1}, {"liquid", 1}, {"inert", 1}, {"amount", 2}, {"energy", 2}, {"heat", 2}}};
 
-// Zeros in the shape (2, 3, 4).
+// Makes zeros in the shape (2, 3, 4).
 std::string zeros(int bytes) {
   std::string header = "{'descr': '" + std::string(bytes == 1 ? "|u1" : "<u2") +
                        "', 'fortran_order': False, 'shape': (2, 3, 4), }";

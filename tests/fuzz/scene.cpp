@@ -1,4 +1,4 @@
-// A whole scene file. Its grid is made small, so that every input takes little time.
+// The target reads a whole scene file. Its grid is made small, so that every input takes little time.
 #include <cstddef>
 #include <cstdint>
 

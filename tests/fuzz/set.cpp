@@ -1,4 +1,4 @@
-// What stands behind --set: an assignment a line, on a scene that has most tables.
+// The target reads the text behind --set: an assignment a line, on a scene that has most tables.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

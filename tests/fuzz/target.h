@@ -1,5 +1,5 @@
-// What the targets share: a file of their own in a folder of their own, and what a reader may do with hostile
-// bytes. It reads them, or throws InputError or ResourceError with one line.
+// The targets share a file of their own in a folder of their own, and the rule for a reader of hostile bytes.
+// It reads them, or throws InputError or ResourceError with one line.
 #pragma once
 
 #include <unistd.h>
@@ -24,8 +24,8 @@ namespace voxmelt::fuzz {
   std::abort();
 }
 
-// The target's own folder. It goes with the process. In memory where it can be: a disk takes milliseconds for
-// each file that is written anew.
+// Returns the target's own folder, which is removed when the process ends. It is in memory if it can be: a
+// disk takes milliseconds for each file that is written anew.
 inline const std::filesystem::path& folder() {
   struct Own {
     Own() {

@@ -1,9 +1,9 @@
-// AVX-512 without such a processor, for house.avx512: those intrinsics that kernel/engine/cpu/lanes_avx512.h
-// and xsimd call for it, as plain loops over 64-byte vectors of g++.
+// AVX-512 works here without such a processor, for house.avx512. The intrinsics that
+// kernel/engine/cpu/lanes_avx512.h and xsimd call for it are plain loops over 64-byte vectors of g++.
 //
-// It comes before everything else (-include) where g++ compiles for AVX2. xsimd then takes the AVX-512 path,
-// and every name below stands for one of ours. An intrinsic that is missing here stays g++'s own, and using
-// it is an error ("target specific option mismatch"): add it.
+// The header comes before everything else (-include) when g++ compiles for AVX2. xsimd then takes the AVX-512
+// path, and every name below stands for one of its intrinsics. An intrinsic that is missing here stays g++'s
+// own, and using it is an error ("target specific option mismatch"): add it.
 #pragma once
 #pragma GCC system_header
 #ifdef __AVX512F__
@@ -31,14 +31,14 @@ typedef std::uint32_t U32 __attribute__((vector_size(64)));
 typedef std::int32_t I32 __attribute__((vector_size(64)));
 typedef std::uint64_t U64 __attribute__((vector_size(64)));
 
-// V, below, is one of these. kBlock: lanes in 128 bits, beyond which most instructions that move lanes do
-// not look.
+// V, below, is one of these. kBlock counts the lanes in 128 bits. Most instructions that move lanes do so
+// only within such a block.
 template <class V>
 constexpr int kLanes = sizeof(V) / sizeof(V{}[0]);
 template <class V>
 constexpr int kBlock = kLanes<V> / 4;
 
-// Lane i of the result: f(i).
+// Sets lane i of the result to f(i).
 template <class V, class F>
 inline __m512i lanes(const F& f) {
   V v;
@@ -46,7 +46,7 @@ inline __m512i lanes(const F& f) {
   return (__m512i)v;
 }
 
-// Memory. An access that must be aligned faults if it is not, as on the processor.
+// These access memory. An access that must be aligned faults if it is not, as on the processor.
 inline __m512i loadu(const void* at) {
   __m512i v;
   std::memcpy(&v, at, sizeof v);
@@ -65,7 +65,7 @@ inline void store(void* at, __m512i v) {
   storeu(at, v);
 }
 
-// The same in every lane, or block; lanes from arguments, the last first.
+// These set the same in every lane, or block, or take lanes from arguments, the last first.
 inline __m512i zero() { return __m512i{}; }
 template <class V>
 inline __m512i set1(decltype(V{}[0] + 0) value) {
@@ -82,7 +82,7 @@ inline __m512i set_last_first(Last... last) {
   return lanes<I32>([&](int i) { return reversed[kLanes<I32> - 1 - i]; });
 }
 
-// Lane by lane.
+// These work lane by lane.
 template <class V>
 inline __m512i add(__m512i a, __m512i b) {
   return (__m512i)((V)a + (V)b);
@@ -141,7 +141,7 @@ inline __m512i srai_epi32(__m512i a, unsigned n) { return (__m512i)((I32)a >> (n
 inline __m512i rol_epi32(__m512i a, unsigned n) { return slli<U32>(a, n % 32) | srli<U32>(a, 32 - n % 32); }
 inline __m512i ror_epi32(__m512i a, unsigned n) { return rol_epi32(a, 32 - n % 32); }
 
-// From one width to another.
+// These convert from one width to another.
 inline __m512i cvtepu8_epi16(__m256i bytes) {
   std::uint8_t from[32];
   std::memcpy(from, &bytes, sizeof from);
@@ -162,7 +162,7 @@ inline __m512i packus_epi32(__m512i a, __m512i b) {
   });
 }
 
-// Lanes moved.
+// These move lanes.
 template <class V>
 inline __m512i unpack(int half, __m512i a, __m512i b) {
   return lanes<V>([x = (V)a, y = (V)b, half](int i) {
@@ -194,7 +194,7 @@ inline __m512i permutex2var_epi16(__m512i a, __m512i which, __m512i b) {
   });
 }
 
-// Masks: bit i for lane i.
+// Masks have bit i for lane i.
 template <class V>
 using Mask = std::conditional_t<
     kLanes<V> == 64, __mmask64,

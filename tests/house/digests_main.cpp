@@ -1,5 +1,5 @@
-// digests_main SCENES IMPLEMENTATION STEPS NAME...: the digest of each scene after STEPS steps. For machines
-// on which no more of the program than kernel/ is built.
+// The program `digests_main SCENES IMPLEMENTATION STEPS NAME...` prints the digest of each scene after STEPS
+// steps. It is for machines on which no more of the program than kernel/ is built.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
-// new_field_main SCENE OUT: what new_field_test.py asks of a state with a field more, `mark`. Reads a scene
-// whose start.fields have marks, and writes npy, VTI and a checkpoint. Ends with 1 and a line where marks are
-// lost.
+// The program `new_field_main SCENE OUT` does what new_field_test.py asks of a state with a field more,
+// `mark`. It reads a scene whose start.fields have marks, and writes npy, VTI and a checkpoint. It ends with
+// 1 and a line if marks are lost.
 #include <cstdio>
 #include <filesystem>
 
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   state::clear(other, {{0, 0, 0}, {volume.grid.x, volume.grid.y, volume.grid.z}});
   expect(state::digest(other) == 0, "marks are not cleared");
 
-  // A volume without it: no memory, no file, no block.
+  // A volume without the field has no memory, file or block for it.
   const state::Volume plain(volume.grid);
   expect(plain.mark.empty(), "every volume has marks");
   expect(back_from_checkpoint(plain, out / "plain.vxc").mark.empty(), "the checkpoint has invented marks");

@@ -1,4 +1,5 @@
-// Frames, depths and picked cells: against a scene whose numbers are worked by hand, and against draw().
+// Frames, depths and picked cells are held against a scene whose numbers are worked by hand, and against
+// draw().
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -41,8 +42,8 @@ class Frames : public SceneFile {
  protected:
   Simulation boxes() { return Simulation(write("boxes.toml", kBoxes)); }
 
-  // From the front, parallel: a pixel is an eighth of a cell, and pixel (0, 0) shows x = 0 and y = 20. Half
-  // the height of the picture is 10 cells, which are distance x tan 45 degrees.
+  // Looks from the front, in parallel. A pixel is an eighth of a cell, and pixel (0, 0) shows x = 0 and y =
+  // 20. Half the height of the picture is 10 cells, which are distance x tan 45 degrees.
   static Picture from_the_front() {
     Camera camera;
     camera.target = {20, 10, 12};
@@ -57,7 +58,7 @@ class Frames : public SceneFile {
     picture.depth = true;
     return picture;
   }
-  // The pixel that shows a place of the front.
+  // These give the pixel that shows a place of the front.
   static int column(double x) { return static_cast<int>(8 * x); }
   static int row(double y) { return static_cast<int>(8 * (20 - y)); }
 };
@@ -124,7 +125,7 @@ TEST_F(Frames, PerspectiveDepthsCountFromTheCamera) {
   EXPECT_EQ(hit->matter.z, 11);
 }
 
-// Any view and setting: what pick() says is what the frame has there.
+// In any view and setting, pick() says what the frame has there.
 TEST_F(Frames, PicksAreTheFramesDepths) {
   Simulation simulation(file);
   simulation.step(100);

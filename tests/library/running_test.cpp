@@ -1,4 +1,4 @@
-// What a user does to a run between its steps: stop it, restart it, save and open it, change its parameters,
+// A user does much to a run between its steps: stop it, restart it, save and open it, change its parameters,
 // ask what has changed. Each leaves the bits of a run that says so from its beginning.
 #include <algorithm>
 #include <cstddef>
@@ -107,7 +107,7 @@ TEST_F(Running, ARestartRefusesAnotherScene) {
   EXPECT_EQ(simulation.steps_done(), 3u);
 }
 
-// Of any step, also between two steps of visibility, where light is kept that no file has.
+// A checkpoint may be of any step, also between two steps of visibility, when light is kept that no file has.
 TEST_F(Running, ACheckpointGoesOnTheSame) {
   for (const char* name : {"proving_ground", "proving_ground_viscous"})
     for (const std::uint32_t steps : {0u, 8u, 11u}) {
@@ -185,7 +185,7 @@ TEST_F(Running, WhatIsNoCheckpointIsRefused) {
   EXPECT_NE(message_of<OutputError>([&] { simulation.save(folder / "no/there.vxc"); }), "nothing");
 }
 
-// Values other than those of the proving grounds, which have an effect there.
+// These values differ from those of the proving grounds, and have an effect there.
 struct Other {
   const char* key;
   double value;
@@ -222,7 +222,7 @@ const std::vector<Other> kViscous = {{"heat.neighbours", 6},           {"flow.fa
                                      {"flow.viscous.substeps", 4},     {"flow.viscous.substeps_max", 1},
                                      {"material.melting_point", 0.42}, {"flow.thermal.reference", 0.9}};
 
-// The scene that begins from an export, and has the other value from its start, is the second program.
+// The second program is a scene that begins from an export, and has the other value from its start.
 void expect_a_set_value_acts_as_said(const std::filesystem::path& file, const std::vector<Other>& others,
                                      const std::filesystem::path& folder) {
   constexpr std::uint32_t kBefore = 8, kAfter = 9;  // 8 is a step of visibility
@@ -269,7 +269,7 @@ TEST_F(Running, ASetValueGivesTheBitsOfASceneThatBeginsWithItViscous) {
   expect_a_set_value_acts_as_said(scene("lesson_tubes"), kTubes, folder);
 }
 
-// In a run that has stepped, with what its machine knows of sleeping tiles and of rays.
+// The value is set in a run that has stepped, with what its machine knows of sleeping tiles and of rays.
 TEST_F(Running, ASetValueInTheMiddleOfARun) {
   for (const Implementation& one : implementations()) {
     if (!one.supported) continue;
@@ -332,7 +332,7 @@ TEST_F(Running, WhatCannotBeSetIsNamed) {
   expect_same(simulation, other, 8);
 }
 
-// A copy of all cells, to be compared.
+// Copies all cells, to be compared.
 std::vector<std::uint64_t> cells_of(const Simulation& simulation, bool matter_alone) {
   const State s = simulation.state();
   std::vector<std::uint64_t> cells;
@@ -348,7 +348,7 @@ std::vector<std::uint64_t> cells_of(const Simulation& simulation, bool matter_al
   return cells;
 }
 
-// No cell outside of the bricks that are listed has changed.
+// Expects that no cell outside of the bricks that are listed has changed.
 void expect_covered(const Changes& changes, Grid grid, const std::vector<std::uint64_t>& before,
                     const std::vector<std::uint64_t>& now, bool matter_alone) {
   std::vector<std::uint8_t> listed(grid.cells());

@@ -1,4 +1,4 @@
-// A small scene in a folder of its own, for the tests of the public face.
+// The tests of the public interface have a small scene in a folder of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace voxmelt {
 
-// A warm block over a floor, a lamp beside it, visibility every 4th step.
+// The scene has a warm block over a floor, a lamp beside it, and visibility every 4th step.
 inline const char* const kSmallScene = R"(title = "small"
 [grid]
 size = [70, 12, 20]
@@ -50,7 +50,7 @@ class SceneFile : public testing::Test {
   std::filesystem::path folder, file;
 };
 
-// The message of the error of one kind that `work` throws; "nothing" if it throws none.
+// Returns the message of the error of one kind that `work` throws, or "nothing" if it throws none.
 template <class Kind, class Work>
 std::string message_of(const Work& work) {
   try {

@@ -1,4 +1,4 @@
-// The public face gives what the rooms inside give, and its errors are its own.
+// The public interface gives what the rooms inside give, and its errors are its own.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -46,7 +46,8 @@ TEST_F(Library, HasTheApprovedDigestsAndCounts) {
     }
 }
 
-// Section 13 of docs/automaton.md, by the views alone: their values, their order, their padding.
+// The digest of section 13 of docs/automaton.md follows from the views alone: their values, their order,
+// their padding.
 TEST_F(Library, TheDigestFollowsFromTheViews) {
   Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "proving_ground.toml");
   simulation.step(40);
@@ -69,7 +70,7 @@ TEST_F(Library, TheDigestFollowsFromTheViews) {
   EXPECT_EQ(sum, simulation.digest());
 }
 
-// The names of report.json's terms; each ledger adds up to what the views hold.
+// The terms have the names in report.json, and each ledger adds up to what the views hold.
 TEST_F(Library, LedgersAddUpToWhatIsThere) {
   Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "proving_ground.toml");
   simulation.step(60);
@@ -162,7 +163,7 @@ TEST_F(Library, OverridesThreadsAndSteps) {
   EXPECT_EQ(moved.steps_done(), 3u);
 }
 
-// The same fields by their names: each cell as in the view that the state has of it.
+// The same fields are found by their names, each cell as in the view that the state has of it.
 TEST_F(Library, EveryFieldIsFoundByItsName) {
   Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "proving_ground.toml");
   simulation.step(40);

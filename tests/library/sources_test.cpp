@@ -1,5 +1,5 @@
-// Sources, vents and drains that a user changes between steps: the bits of a scene that said so from the
-// start, for every implementation; and nothing out of range passes.
+// A user changes sources, vents and drains between steps. Every implementation gives the bits of a scene that
+// said so from the start, and nothing out of range passes.
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -100,7 +100,7 @@ TEST_F(Sources, WhatIsReadBackIsWhatWasSetRounded) {
   simulation.set_vents({vent});
   EXPECT_EQ(simulation.vents()[0].at[0], 1.0);
 
-  // Setting what was read changes nothing.
+  // Setting the numbers that were read changes nothing.
   Simulation untouched(file, options);
   Simulation same(file, options);
   for (int step = 0; step < 20; ++step) {
@@ -121,7 +121,7 @@ TEST_F(Sources, OfEveryKindAreReadBack) {
        {{{.power = 0.25, .direction = {0, 3, -1}}, {.step = 7, .power = 1, .direction = {1, 1, 1}}},
         directional},
        {{{.power = 0.125}}, sky}});
-  for (int round = 0; round < 2; ++round) {  // what was rounded stays
+  for (int round = 0; round < 2; ++round) {  // rounded numbers stay as they are
     const std::vector<HeatSource> read = simulation.heat_sources();
     ASSERT_EQ(read.size(), 3u);
     EXPECT_EQ(read[0].kind, sphere);
@@ -196,7 +196,7 @@ TEST_F(Sources, WhatASceneMayNotSayIsRefusedAndNothingChanges) {
   without_heat.step();
 }
 
-// The first source of a scene that had none, and the last one taken away.
+// A scene that had no source gets one, and its last one is taken away.
 TEST_F(Sources, AreLitInADarkSceneAndPutOut) {
   const std::string dark =
       std::string(kSmallScene).substr(0, std::string(kSmallScene).find("[[heat_source]]"));

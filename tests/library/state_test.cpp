@@ -1,4 +1,4 @@
-// The views of a state: strides, rows and words, on memory made by hand.
+// The views of a state are tested in strides, rows and words, on memory made by hand.
 #include <gtest/gtest.h>
 #include <voxmelt/state.h>
 
@@ -10,7 +10,7 @@ namespace voxmelt {
 namespace {
 
 TEST(FieldView, StepsOverThePadding) {
-  // 3 x 2 x 2 cells, rows 5 apart, slices 12 apart; 900 is padding.
+  // There are 3 x 2 x 2 cells, rows 5 apart, slices 12 apart; 900 is padding.
   const std::vector<std::uint16_t> data{0,   1,   2,   900, 900, 10,  11,  12,  900, 900, 900, 900,
                                         100, 101, 102, 900, 900, 110, 111, 112, 900, 900, 900, 900};
   const FieldView field(data.data(), {3, 2, 2}, 5, 12);
@@ -36,7 +36,8 @@ TEST(NamedField, GivesTheNumberOfAnyWidth) {
 }
 
 TEST(MaskView, HasSixtyFourCellsAWord) {
-  // 70 x 2 x 2 cells: two words a row. Set are (0, 0, 0), (69, 1, 0), (64, 0, 1) and (3, 1, 1).
+  // There are 70 x 2 x 2 cells, two words a row. The cells (0, 0, 0), (69, 1, 0), (64, 0, 1) and (3, 1, 1)
+  // are set.
   const std::vector<std::uint64_t> data{1, 0, 0, 32, 0, 1, 8, 0};
   const MaskView mask(data.data(), {70, 2, 2});
   EXPECT_EQ(mask.count(), 4u);

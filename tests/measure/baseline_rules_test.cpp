@@ -1,4 +1,4 @@
-// Each rule of the baseline where its result is known beforehand.
+// Each rule of the baseline is tested where its result is known beforehand.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -83,7 +83,8 @@ TEST(BaselineRules, SpreadGivesItsSharesToASubsetOfTheOpenNeighbours) {
     EXPECT_NEAR(trial.fields().cell(2, 0, 2).amount, left, 1e-12);
     EXPECT_NEAR(trial.fields().cell(2, 0, 2).energy, left, 1e-12);
   }
-  // +x and +z are solid, and their diagonal is closed with them; all others are given to every other time.
+  // The neighbours +x and +z are solid, and their diagonal is closed with them. All others are given to every
+  // other time.
   for (const std::size_t closed : {0u, 2u, 4u}) EXPECT_EQ(given[closed], 0);
   for (const std::size_t open : {1u, 3u, 5u, 6u, 7u}) EXPECT_NEAR(given[open], 2000, 150);
 }
@@ -91,7 +92,7 @@ TEST(BaselineRules, SpreadGivesItsSharesToASubsetOfTheOpenNeighbours) {
 TEST(BaselineRules, WhoSpreadsAndHowFarDown) {
   const rule::Parameters parameters = worlds::paper_showcase();
   // Gives the middle of a 3 x 3 square the energy `energy`, its neighbours `around`, all standing on a cell
-  // of `below`, and looks which of (face, diagonal) neighbours ever get something in 32 steps.
+  // of `below`. Tells which of (face, diagonal) neighbours ever get something in 32 steps.
   const auto receivers = [&](int energy, int around, int below) {
     std::pair<bool, bool> got{false, false};
     for (std::uint32_t step = 0; step < 32; ++step) {

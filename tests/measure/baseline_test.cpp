@@ -1,4 +1,5 @@
-// The baseline as a whole: conservation, float against double, native against plain, and the reference.
+// The baseline is tested as a whole: conservation, float against double, native against plain, and the
+// reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +54,7 @@ TEST(Baseline, ConservesItsAmount) {
   expect_sound(twice.fields(), start, 1e-9);
 }
 
-// Rounding can change a decision (lower by the margin? warm enough?) where both sides are nearly equal. From
+// Rounding can change a decision (lower by the margin? warm enough?) if both sides are nearly equal. From
 // there on two runs diverge. So float is compared with double one step at a time, both from the same state.
 // Then every cell agrees to rounding, but for the few whose decision was close.
 TEST(Baseline, FloatStepsLikeDouble) {
@@ -130,8 +131,8 @@ TEST(Baseline, NativeGivesTheSameBits) {
   expect_same_bits<double>();
 }
 
-// The same ball of liquid by the baseline and by the reference: other random bits and the excess in a pass of
-// its own, but the same law, so the same round pile.
+// The same ball of liquid runs by the baseline and by the reference. They have other random bits and the
+// excess in a pass of its own, but the same law, so the same round pile.
 TEST(Baseline, ADropSpreadsLikeTheReference) {
   state::Volume volume(state::Grid{64, 24, 64});
   worlds::put_ball(volume, 7, true);

@@ -1,5 +1,5 @@
-// Tests of what times pictures: it refuses wrong ones, its states go there and back, and its arithmetic is
-// right.
+// The timing of pictures is tested: it refuses wrong ones, its states go there and back, and its arithmetic
+// is right.
 #include "measure/drawing.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ scene::Scene drop_scene() {
 
 Workload middle_of_drop(const scene::Scene& scene) { return scene_at(scene, 50, 1); }
 
-// The packets of this processor with one fault: the last place of every call is a shade too red.
+// Draws with the packets of this processor and one fault: the last place of every call is a shade too red.
 void draw_a_shade_too_red(const render::PictureData& data, render::Places places, render::PressedLight to) {
   render::best_packets().draw(data, places, to);
   to.red[places.count - 1] = static_cast<std::uint16_t>(to.red[places.count - 1] ^ 2048);

@@ -1,5 +1,5 @@
-// Tests of the benchmark: it refuses wrong results, its workloads do what they say, and its arithmetic
-// is right.
+// The benchmark is tested: it refuses wrong results, its workloads do what they say, and its arithmetic is
+// right.
 #include "measure/measure.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@
 namespace voxmelt::measure {
 namespace {
 
-// The reference with one fault in one cell.
+// Is the reference with one fault in one cell.
 enum class Fault { amount, leak };
 template <Fault fault>
 class Faulty : public step::HostStepper {
@@ -146,7 +146,8 @@ Seconds seconds(double gravity, double spread) {
   return result;
 }
 
-// Two steps, three rounds, each disturbed somewhere else. Gravity: (2 + 3) / 2; spread: (10 + 30) / 2.
+// There are two steps and three rounds, each disturbed somewhere else. Gravity is (2 + 3) / 2, and spread is
+// (10 + 30) / 2.
 TEST(Measure, EachPhaseOfEachStepCountsWithItsLeastTime) {
   Fastest fastest;
   fastest.add({seconds(9, 10), seconds(3, 90)});
@@ -156,7 +157,7 @@ TEST(Measure, EachPhaseOfEachStepCountsWithItsLeastTime) {
   EXPECT_DOUBLE_EQ(fastest.step().flow(), 2.5 + 20);
   EXPECT_DOUBLE_EQ(fastest.step().phase[static_cast<std::size_t>(step::Phase::gravity)], 2.5);
   EXPECT_DOUBLE_EQ(fastest.step().heat(), 0);
-  // The rounds' mean steps: (19 + 93) / 2, (52 + 37) / 2 and (15 + 36) / 2.
+  // The rounds' mean steps are (19 + 93) / 2, (52 + 37) / 2 and (15 + 36) / 2.
   EXPECT_DOUBLE_EQ(fastest.median().flow, 44.5);
   EXPECT_DOUBLE_EQ(fastest.median().heat, 0);
 }
@@ -174,7 +175,7 @@ TEST(Measure, ARatioSaysHowManyTimesAsLongTheBaselineTakes) {
   EXPECT_FALSE(ratio_to(std::nullopt, seconds(1, 2), Subject::flow));
 }
 
-// 6 ms on one thread, 4 ms on two, 1.2 ms on eight: 1.5 and 5 times as fast.
+// The case takes 6 ms on one thread, 4 ms on two, 1.2 ms on eight: 1.5 and 5 times as fast.
 TEST(Measure, SpeedUpsAreAgainstTheSameCaseOnOneThread) {
   std::vector<Case> cases;
   const auto add = [&](const char* workload, const char* implementation, Subject subject, int threads,
@@ -240,7 +241,7 @@ TEST(Measure, ThreeDigits) {
   EXPECT_EQ(or_dash(std::nullopt), "–");
 }
 
-// The page shows the widest instruction set on all threads: of these four cases the last.
+// The page shows the widest instruction set on all threads, which is the last of these four cases.
 TEST(Measure, ThePageShowsTheWidestSetOnAllThreads) {
   Findings findings;
   double seconds = 0.008;
@@ -262,7 +263,7 @@ TEST(Measure, ThePageShowsTheWidestSetOnAllThreads) {
   EXPECT_EQ(text.find("1.00 |"), std::string::npos) << "another set or fewer threads\n" << text;
 }
 
-// One cell of liquid hangs in the air, 17 cells from the wall: it falls each step, and changes two vectors,
+// One cell of liquid hangs in the air, 17 cells from the wall. It falls each step, and changes two vectors,
 // above and below. A vector holds 8, 16 or 32 cells, and there are no others that change.
 TEST(Needed, AFallingCellChangesTwoVectors) {
   Workload workload;
@@ -277,7 +278,7 @@ TEST(Needed, AFallingCellChangesTwoVectors) {
   }
 }
 
-// A row of 33 cells falls as one: it lies in five vectors of 8, three of 16, two of 32; each in two rows.
+// A row of 33 cells falls as one. It lies in five vectors of 8, three of 16, two of 32, each in two rows.
 TEST(Needed, VectorsAreThoseOfTheInstructionSet) {
   Workload workload;
   workload.start = state::Volume(state::Grid{33, 8, 1});
@@ -293,8 +294,8 @@ TEST(Needed, VectorsAreThoseOfTheInstructionSet) {
   EXPECT_DOUBLE_EQ(needed[2].gravity, 4);
 }
 
-// Two solid cells side by side, cold and warm: their heats change, and nothing else does. Cells 7 and 8 lie
-// in two vectors of 8, and in one of 16.
+// Two solid cells lie side by side, cold and warm: their heats change, and nothing else does. Cells 7 and 8
+// lie in two vectors of 8, and in one of 16.
 TEST(Needed, HeatAloneCountsAsAChange) {
   Workload workload;
   workload.parameters.heat.enabled = true;
@@ -314,8 +315,8 @@ TEST(Needed, HeatAloneCountsAsAChange) {
   EXPECT_DOUBLE_EQ(needed[0].gravity + needed[0].spread, 0);
 }
 
-// 100 vectors of gravity and 50 of spread, of 16 cells, on two threads. A full volume of 1000 cells takes 2
-// and 6 ms: (1600 x 2 us + 800 x 6 us) / 2. Heat: 10 x 16 cells at 5 us, halved.
+// There are 100 vectors of gravity and 50 of spread, of 16 cells, on two threads. A full volume of 1000 cells
+// takes 2 and 6 ms: (1600 x 2 us + 800 x 6 us) / 2. Heat has 10 x 16 cells at 5 us, halved.
 TEST(Needed, TheLeastTimeIsThatOfFullVectors) {
   Seconds solid;
   solid.phase[static_cast<std::size_t>(step::Phase::heat)] = 4e-3;
@@ -350,7 +351,7 @@ TEST(Needed, AScenesBoundIsThatOfItsSet) {
   scene.needed = Needed{0, 1000, 0};
   scene.ratio_to_baseline = 20;
   bound_scenes(cases);
-  // 1000 vectors of 8 cells at 3 ns, on two threads.
+  // The scene has 1000 vectors of 8 cells at 3 ns, on two threads.
   ASSERT_TRUE(cases.back().least_seconds);
   EXPECT_DOUBLE_EQ(*cases.back().least_seconds, 12e-6);
   EXPECT_DOUBLE_EQ(*cases.back().least_ratio_to_baseline(), 20 * 1e-3 / 12e-6);

@@ -1,4 +1,4 @@
-// Scenes for the tests of the baseline, and how they are looked at.
+// The tests of the baseline share these scenes, and the functions that look at them.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,8 @@
 
 namespace voxmelt::baseline {
 
-// A solid ball over a floor with a step in it, in hot moving air and under a lamp, with every rule in use.
+// A solid ball lies over a floor with a step in it, in hot moving air and under a lamp, with every rule in
+// use.
 struct MeltingDrop {
   rule::Parameters parameters;
   state::Volume volume;

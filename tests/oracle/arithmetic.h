@@ -1,4 +1,4 @@
-// docs/automaton.md section 2: exact integers, dither, mixing.
+// The arithmetic has exact integers, dither and mixing (docs/automaton.md section 2).
 #pragma once
 #include <cstdint>
 
@@ -11,14 +11,14 @@ constexpr Int ONE = 4096;    // section 1: a full cell
 constexpr Int AMAX = 65535;  // section 1: the most a cell may hold
 constexpr Int FLAT = 2048;   // section 1: the bed offset of a flat surface
 
-// Floor division; b > 0 (section 2).
+// Divides and rounds down, for b > 0 (section 2).
 template <typename Number>
 constexpr Number floor_divide(Number a, Number b) {
   const Number quotient = a / b;
   return (a % b < 0) ? quotient - 1 : quotient;
 }
 
-// a >> n is floor(a / 2^n) in C++20, for negative a too (section 2).
+// In C++20, a >> n is floor(a / 2^n), for negative a too (section 2).
 constexpr Int scaled(Int a, Int w, Int r = 0) { return (a * w + r) >> 16; }
 
 constexpr Int clamp(Int value, Int low, Int high) {
@@ -28,7 +28,7 @@ constexpr Int clamp(Int value, Int low, Int high) {
 constexpr Int smaller(Int a, Int b) { return a < b ? a : b; }
 constexpr Int larger(Int a, Int b) { return a > b ? a : b; }
 
-// The 16 lowest bits of the step number in reverse order (section 2).
+// Returns the 16 lowest bits of the step number in reverse order (section 2).
 constexpr Int bit_reversed(Int s) {
   Int result = 0;
   for (Int bit = 0; bit < 16; ++bit)
@@ -36,13 +36,14 @@ constexpr Int bit_reversed(Int s) {
   return result;
 }
 
-// D(s, k, n) of section 2; D(s) = D(s, 0, 1).
+// Returns D(s, k, n) of section 2; D(s) = D(s, 0, 1).
 constexpr Int dither(Int s, Int k = 0, Int n = 1) { return (bit_reversed(s) + 65536 * k / n) % 65536; }
 
-// Mixing (section 2): the heat of `amount` = sum a_i, with `products` = sum a_i h_i.
+// Mixing (section 2) gives the heat of `amount` = sum a_i, with `products` = sum a_i h_i.
 constexpr Int mixed(Int products, Int amount, Int B) { return (products + ((amount * B) >> 16)) / amount; }
 
-// The floor of the square root of a, for 0 <= a < 2^62: the greatest number whose square is at most a.
+// Returns the floor of the square root of a, for 0 <= a < 2^62: the greatest number whose square is at most
+// a.
 constexpr Int square_root(Int a) {
   Int root = 0;
   for (Int bit = Int{1} << 30; bit > 0; bit >>= 1)

@@ -1,4 +1,4 @@
-// docs/automaton.md section 13.
+// The digest follows docs/automaton.md section 13.
 #include <cstdint>
 
 #include "state.h"

@@ -1,10 +1,10 @@
-// docs/automaton.md section 8: gravity and, under the paper law, excess, in one sweep per column.
+// Gravity and, under the paper law, excess run in one sweep per column (docs/automaton.md section 8).
 #include "state.h"
 
 namespace oracle {
 namespace {
 
-// What cell q, at `at`, is ready to let fall into p. Both have the amounts of the moment.
+// Returns what cell q, at `at`, is ready to let fall into p. Both have the amounts of the moment.
 Int ready_to_fall(const State& state, const Cell& p, const Cell& q, Place at) {
   const Fall& fall = state.parameters.fall;
   const bool wall = state.beside_wall(at);

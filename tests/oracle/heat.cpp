@@ -1,4 +1,4 @@
-// docs/automaton.md sections 6 (heat) and 7 (melt).
+// Heat and melting follow docs/automaton.md sections 6 and 7.
 #include <vector>
 
 #include "state.h"
@@ -13,10 +13,10 @@ const std::vector<Axis> FACES = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Axis> EDGES = {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 const std::vector<Axis> CORNERS = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
 
-// W[n] of section 6: 4096 times the square root of the number of axes.
+// W[n] of section 6 is 4096 times the square root of the number of axes.
 constexpr Int AXIS_WEIGHT[4] = {0, 4096, 5793, 7094};
 
-// T(h)
+// Returns T(h).
 Int temperature(const State& state, Int i) {
   const Int h = state.cells[i].heat;
   const Int melting_point = state.parameters.melting_point;
@@ -33,7 +33,7 @@ void apply_changes(State& state, std::vector<Int>& changes, const char* name) {
   }
 }
 
-// The cell that is `steps` times the axis away from cell i; -1 outside the grid.
+// Returns the cell that is `steps` times the axis away from cell i, or -1 outside the grid.
 Int neighbour(const State& state, Int i, const Axis& axis, Int steps) {
   const Place p = state.place(i);
   const Int x = p.x + steps * axis.dx, y = p.y + steps * axis.dy, z = p.z + steps * axis.dz;
@@ -49,7 +49,7 @@ void conduct(State& state, const std::vector<Axis>& axes, Int weight, std::vecto
     if (!state.matter(i)) continue;
     const Int amount = state.cells[i].amount;
     for (Int k = 0; k < n; ++k) {
-      // F of the pair p, q = p + axis k
+      // This is F of the pair p, q = p + axis k.
       const auto flow = [&](Int p, Int q) {
         return scaled(temperature(state, q) - temperature(state, p), weight, offsets[k]);
       };
@@ -97,7 +97,7 @@ void radiate(State& state) {
   }
 }
 
-// The number of axes on which at least one of the two face neighbours is air.
+// Returns the number of axes on which at least one of the two face neighbours is air.
 Int airy_axes(const State& state, Place p) {
   Int n = 0;
   if (state.air(p.x - 1, p.y, p.z) || state.air(p.x + 1, p.y, p.z)) ++n;

@@ -1,4 +1,4 @@
-// docs/automaton.md section 5: a row for each kind of source.
+// The table has a row for each kind of source (docs/automaton.md section 5).
 #include "kinds.h"
 
 #include <cstddef>
@@ -10,7 +10,7 @@ Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// 2^20 v / floor(sqrt(4096 |v|^2)), each component rounded down.
+// Returns 2^20 v / floor(sqrt(4096 |v|^2)), each component rounded down.
 Point unit(const Point& v) {
   const Int length = square_root(4096 * squared_length(v));
   Point result{};
@@ -19,12 +19,12 @@ Point unit(const Point& v) {
   return result;
 }
 
-// P + k D for the least whole k > 0 with which it has left the grid.
+// Returns P + k D for the least whole k > 0 with which it has left the grid.
 Point leaving(const Point& start, const Point& D, const std::array<Int, 3>& grid) {
   std::optional<Int> k;
   for (std::size_t b = 0; b < 3; ++b) {
     if (D[b] == 0) continue;
-    // The steps to the border ahead, rounded up; at least one.
+    // These are the steps to the border ahead, rounded up, and at least one.
     const Int way = D[b] > 0 ? 16 * grid[b] - start[b] : start[b];
     const Int pace = D[b] > 0 ? D[b] : -D[b];
     const Int steps = larger(1, (way + pace - 1) / pace);
@@ -61,14 +61,14 @@ Point sky_direction(const Face& face, const OnDisc& place) {
   return H;
 }
 
-// Ends that are not beyond the face are none.
+// An end that is not beyond the face is no end.
 std::optional<Cast> cast_to(const Point& end, const Face& face) {
   const Int w = face.side * (end[face.axis] - face.cell[face.axis]);
   if (w <= 8) return std::nullopt;
   return Cast{end, w};
 }
 
-// No nearer than one cell, or than `radius`.
+// A place counts as no nearer than one cell, or than `radius`.
 Sum from_a_place(const Key& now, const Point& centre, Int N, Int R, Int radius) {
   const Int distance = squared_length(difference(now.at, centre));
   const Int d2 = larger(larger(distance, radius * radius), 256);
@@ -106,7 +106,7 @@ std::optional<Cast> cast_to_sky(const Look& look) {
 Sum from_sky(const Key& now, const Point&, Int N, Int R) { return Sum{now.power} * N / (256 * R); }
 
 constexpr Kind KINDS[] = {
-    // name, at, radius, direction
+    // The columns are name, at, radius, direction.
     {"point", true, false, false, cast_to_point, from_point},
     {"sphere", true, true, false, cast_to_sphere, from_sphere},
     {"directional", false, false, true, cast_to_sun, from_sun},

@@ -1,5 +1,5 @@
-// docs/automaton.md section 5: the kinds of sources: the numbers that their keys have, the table of where
-// rays end, and what a cell receives.
+// The kinds of sources follow docs/automaton.md section 5: the numbers that their keys have, the table of
+// where rays end, and what a cell receives.
 #pragma once
 #include "rays.h"
 
@@ -14,7 +14,7 @@ struct Cast {
   Int weight = 0;
 };
 
-// A ray, and what its end depends on.
+// Holds a ray, and what its end depends on.
 struct Look {
   Point start{};
   const Face& face;
@@ -26,9 +26,9 @@ struct Look {
 
 struct Kind {
   const char* name;
-  bool at, radius, direction;                                          // what its keys have
-  std::optional<Cast> (*cast)(const Look&);                            // nothing where the ray is not cast
-  Sum (*received)(const Key& now, const Point& centre, Int N, Int R);  // by a cell, for N > 0
+  bool at, radius, direction;                                          // numbers that its keys have
+  std::optional<Cast> (*cast)(const Look&);                            // nothing if the ray is not cast
+  Sum (*received)(const Key& now, const Point& centre, Int N, Int R);  // irradiance of a cell, for N > 0
 };
 
 const Kind* kind_named(const std::string& name);  // null for none

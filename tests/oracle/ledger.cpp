@@ -1,4 +1,4 @@
-// docs/automaton.md section 12.
+// The ledgers follow docs/automaton.md section 12.
 #include "ledger.h"
 
 #include "state.h"

@@ -1,4 +1,4 @@
-// docs/automaton.md section 12: the three ledgers.
+// There are three ledgers (docs/automaton.md section 12).
 #pragma once
 #include "arithmetic.h"
 
@@ -36,7 +36,8 @@ struct Ledgers {
   HeatLedger heat;
 };
 
-// Section 10: over all settles, the cells in runs and their mass, and those of them that a limit holds back.
+// Counts, over all settles, the cells in runs and their mass, and those of them that a limit holds back
+// (section 10).
 struct Counters {
   Sum cells = 0, mass = 0, limited_cells = 0, limited_mass = 0;
 };

@@ -1,4 +1,4 @@
-// An implementation of docs/automaton.md, written from that page alone.
+// The oracle is an implementation of docs/automaton.md, written from that page alone.
 //   oracle DIR [--steps N] [--every K] [--ledger] [--fields DIR2]
 #include "state.h"
 
@@ -11,7 +11,7 @@
 
 namespace oracle {
 
-// Section 3
+// Runs a step of section 3.
 void run_step(State& state) {
   const Heat& rules = state.parameters.heat;
   state.offset = dither(state.step);
@@ -73,7 +73,7 @@ Options read_options(int count, char** words) {
   return options;
 }
 
-// Section 13: N counts the steps of this run, wherever `step` of the parameters begins.
+// Prints the line of section 13. N counts the steps of this run, wherever `step` of the parameters begins.
 void print_line(const State& state, Int done) {
   Int solid = 0, liquid = 0;
   for (const Cell& cell : state.cells) {

@@ -1,4 +1,4 @@
-// Files of NumPy's format 1.0.
+// The functions here read and write files of NumPy's format 1.0.
 #include "npy.h"
 
 #include <fstream>
@@ -12,7 +12,7 @@ const std::string MAGIC("\x93NUMPY\x01\x00", 8);
 
 std::string type_of(Int width) { return width == 1 ? "'|u1'" : "'<u2'"; }
 
-// "{'descr':'|u1','fortran_order':False,'shape':(2,3,4)" without blanks.
+// Returns "{'descr':'|u1','fortran_order':False,'shape':(2,3,4)", with `blank` after commas and colons.
 std::string described(const std::array<Int, 3>& shape, Int width, const std::string& blank) {
   return "{'descr':" + blank + type_of(width) + "," + blank + "'fortran_order':" + blank + "False," + blank +
          "'shape':" + blank + "(" + std::to_string(shape[0]) + "," + blank + std::to_string(shape[1]) + "," +

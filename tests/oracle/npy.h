@@ -1,4 +1,4 @@
-// Files of NumPy's format 1.0 (docs/automaton.md section 14): |u1 or <u2, C order.
+// Files of NumPy's format 1.0 are |u1 or <u2, in C order (docs/automaton.md section 14).
 #pragma once
 #include "arithmetic.h"
 

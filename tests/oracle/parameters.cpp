@@ -1,4 +1,4 @@
-// docs/automaton.md section 14: parameters.json and the ranges a scene may use.
+// The reader takes parameters.json and checks the ranges that a scene may use (docs/automaton.md section 14).
 #include "parameters.h"
 
 #include "kinds.h"
@@ -154,7 +154,7 @@ PaperFlow read_paper(const Json& json) {
   paper.threshold = integer(json, "threshold", 0, 65535);
   paper.use_table = yes(json, "use_table");
   if (paper.use_table) {
-    // 16 rows, one per pattern, of 4 factors, one per direction.
+    // There are 16 rows, one per pattern, of 4 factors, one per direction.
     require(paper.neighbours == 4, "a table wants 4 neighbours");
     for (const Json& row : member(json, "table")) {
       paper.table.push_back(integers(row, "table", 0, 65536));
@@ -225,7 +225,7 @@ Parameters read_parameters(const std::string& path) {
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
   if (p.thermal_viscosity) {
-    // 16 bits: docs/proofs.md, "Widths".
+    // The numbers have 16 bits: docs/proofs.md, "Widths".
     p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, 65535);
     require(p.mobility_table.size() == 32, "mobility_table has not 32 numbers");
   }

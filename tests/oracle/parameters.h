@@ -1,4 +1,4 @@
-// docs/automaton.md section 14: what parameters.json names.
+// The parameters are those that parameters.json names (docs/automaton.md section 14).
 #pragma once
 #include "arithmetic.h"
 

@@ -1,4 +1,4 @@
-// docs/automaton.md section 2: random words and bytes from Speck64/128 cut to 10 rounds.
+// Random words and bytes come from Speck64/128 cut to 10 rounds (docs/automaton.md section 2).
 #pragma once
 #include "arithmetic.h"
 
@@ -24,7 +24,7 @@ class RandomWords {
     }
   }
 
-  // The word of step s and block b, both taken mod 2^32.
+  // Returns the word of step s and block b, both taken mod 2^32.
   constexpr std::uint64_t word(Int s, Int b) const {
     std::uint32_t X = static_cast<std::uint32_t>(s & 0xFFFFFFFF);
     std::uint32_t Y = static_cast<std::uint32_t>(b & 0xFFFFFFFF);
@@ -48,7 +48,7 @@ class RandomBytes {
  public:
   explicit RandomBytes(std::uint64_t seed) : words(seed, RandomWords::BYTES) {}
 
-  // The byte of cell (x, y, z) of an nx x ny x nz grid at step s.
+  // Returns the byte of cell (x, y, z) of an nx x ny x nz grid at step s.
   Int byte(Int x, Int y, Int z, Int nx, Int ny, Int s) const {
     const Int block = (z * ny + y) * ((nx + 7) / 8) + x / 8;
     return static_cast<Int>((words.word(s, block) >> (8 * (x % 8))) % 256);

@@ -1,4 +1,4 @@
-// docs/automaton.md section 5: keys, faces, where rays start, and how they are turned.
+// Keys, faces, the starts of rays and their turns follow docs/automaton.md section 5.
 #include "rays.h"
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 namespace oracle {
 namespace {
 
-// floor(16384 cos((2c + 1) pi / 256)), as the page lists it.
+// The page lists floor(16384 cos((2c + 1) pi / 256)).
 constexpr Int COSINE[64] = {16382, 16372, 16353, 16323, 16284, 16234, 16175, 16107, 16028, 15940, 15842,
                             15735, 15618, 15492, 15357, 15212, 15058, 14895, 14723, 14543, 14353, 14155,
                             13948, 13733, 13510, 13278, 13038, 12791, 12536, 12273, 12003, 11726, 11442,
@@ -15,7 +15,7 @@ constexpr Int COSINE[64] = {16382, 16372, 16353, 16323, 16284, 16234, 16175, 161
                             7545,  7186,  6822,  6455,  6083,  5708,  5329,  4948,  4563,  4175,  3785,
                             3393,  2998,  2602,  2204,  1805,  1405,  1004,  603,   201};
 
-// n with its log2(R) bits in reverse order.
+// Returns n with its log2(R) bits in reverse order.
 Int reversed(Int n, Int R) {
   Int result = 0;
   for (Int bit = 1; bit < R; bit *= 2) {
@@ -27,7 +27,7 @@ Int reversed(Int n, Int R) {
 
 }  // namespace
 
-// All numbers of a source at step s, from its keys.
+// Returns all numbers of a source at step s, from its keys.
 Key key_at(const RadiationSource& source, Int s) {
   const std::vector<Key>& keys = source.keys;
   if (s < keys.front().step) return keys.front();

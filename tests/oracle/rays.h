@@ -1,4 +1,4 @@
-// docs/automaton.md section 5: the rays of a cell: where they start and end, and what they weigh.
+// The rays of a cell follow docs/automaton.md section 5: where they start and end, and what they weigh.
 #pragma once
 #include "random.h"
 #include "state.h"
@@ -24,7 +24,7 @@ struct Face {
 Face face_of(Place cell, Int f);
 Point start_of(const Face& face, Int n, Int R);
 
-// The random turn of the rays of spheres and skies.
+// A ray number gives the random turn of the rays of spheres and skies.
 struct RayNumber {
   Int cell, f, n, R;
 };

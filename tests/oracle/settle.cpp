@@ -1,4 +1,4 @@
-// docs/automaton.md section 10: excess under the viscous law, and the number of sub-steps.
+// Excess under the viscous law, and the number of sub-steps, follow docs/automaton.md section 10.
 #include "state.h"
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace oracle {
 namespace {
 
-// The height of the surface below the cell (x, y, z), in 1/512 cell.
+// Returns the height of the surface below the cell (x, y, z), in 1/512 cell.
 Int bed_of(const State& state, Int x, Int y, Int z) {
   Int b = FLAT;
   if (y > 0) {
@@ -17,7 +17,7 @@ Int bed_of(const State& state, Int x, Int y, Int z) {
   return 512 * y + ((b - FLAT) >> 3);
 }
 
-// The number of cells of the run that starts at y0.
+// Returns the number of cells of the run that starts at y0.
 Int run_length(const State& state, Int x, Int y0, Int z) {
   Int n = 0;
   Int mass = 0;
@@ -31,7 +31,7 @@ Int run_length(const State& state, Int x, Int y0, Int z) {
   }
 }
 
-// A run before it settles.
+// Holds a run before it settles.
 struct Unsettled {
   std::vector<Int> cells;  // their indices, upwards
   Int bed = 0;
@@ -56,7 +56,7 @@ Unsettled find_run(const State& state, Int x, Int y0, Int z) {
   return run;
 }
 
-// Calls action(run) for every run, in each column upwards; the action may settle it.
+// Calls action(run) for every run, in each column upwards. The action may settle it.
 template <typename Action>
 void for_each_run(const State& state, Action action) {
   for (const Column& column : columns_with_liquid(state)) {
@@ -71,7 +71,7 @@ void for_each_run(const State& state, Action action) {
   }
 }
 
-// `raw` in 1/2^24. The product takes 64 bits without a sign.
+// Returns `raw` in 1/2^24. The product takes 64 bits without a sign.
 Int raw_mobility(const Parameters& parameters, const Unsettled& run, Int pace) {
   const Int M = smaller(run.M, 262144);
   const Int raw = static_cast<Int>((Sum{pace} * (M * M >> 8) + (Sum{1} << 23)) >> 24);
@@ -79,13 +79,13 @@ Int raw_mobility(const Parameters& parameters, const Unsettled& run, Int pace) {
   return (raw * parameters.mobility_table[run.mean_heat() >> 11]) >> 15;
 }
 
-// `limit` in 1/65536.
+// Returns `limit` in 1/65536.
 Int limit_of(const Parameters& parameters, const Unsettled& run) {
   const Int limit = 13107 / ((run.M >> 12) + 1);
   return larger(1, run.over > 0 ? limit / parameters.viscous.stiffness : limit);
 }
 
-// What the cells of a run show, when a step has n sub-steps.
+// Returns what the cells of a run show, when a step has n sub-steps.
 Run shown_by_run(const Parameters& parameters, const Unsettled& run, Int n) {
   const ViscousFlow& viscous = parameters.viscous;
   const Int raw = raw_mobility(parameters, run, (viscous.mobility + n / 2) / n);
@@ -103,13 +103,13 @@ Run shown_by_run(const Parameters& parameters, const Unsettled& run, Int n) {
   return shown;
 }
 
-// The flows through the inner faces of a run: face k lies above cell k.
+// Holds the flows through the inner faces of a run. Face k lies above cell k.
 struct FaceFlows {
   bool keep_order = false;
   std::vector<Int> up, down;
 };
 
-// The flows that settle a run, and whether they are to be used.
+// Returns the flows that settle a run, and tells if they are to be used.
 FaceFlows face_flows(const State& state, const Unsettled& run) {
   FaceFlows flows;
   flows.keep_order = run.over == 0;
@@ -124,7 +124,7 @@ FaceFlows face_flows(const State& state, const Unsettled& run) {
   return flows;
 }
 
-// What docs/proofs.md promises: no giver lacks what it gives, and no receiver holds more than AMAX.
+// Checks a promise of docs/proofs.md: no giver lacks what it gives, and no receiver holds more than AMAX.
 void move_through_face(State& state, Int from, Int to, Int f) {
   if (f == 0) return;
   Cell& giver = state.cells[from];
@@ -143,7 +143,7 @@ void move_through_faces(State& state, const std::vector<Int>& cells, const FaceF
   for (Int k = faces - 1; k >= 0; --k) move_through_face(state, cells[k + 1], cells[k], flows.down[k]);
 }
 
-// All cells of a run get one heat.
+// Gives all cells of a run one heat.
 void mix_all(State& state, const Unsettled& run) {
   if (!state.parameters.heat.enabled) return;
   const Int h = mixed(static_cast<Int>(run.products), run.M, state.mixture_offset);
@@ -151,7 +151,7 @@ void mix_all(State& state, const Unsettled& run) {
   state.ledgers.heat.rounded += Sum{run.M} * h - run.products;
 }
 
-// The amounts of a run once it has settled, upwards.
+// Returns the amounts of a run once it has settled, upwards.
 std::vector<Int> settled_amounts(const Unsettled& run) {
   const Int n = static_cast<Int>(run.cells.size());
   std::vector<Int> amounts;

@@ -1,4 +1,4 @@
-// docs/automaton.md section 4: vents and drains.
+// Vents and drains follow docs/automaton.md section 4.
 #include <cstddef>
 
 #include "state.h"

@@ -1,4 +1,4 @@
-// docs/automaton.md section 9: spread under the paper law.
+// Spread under the paper law follows docs/automaton.md section 9.
 #include "state.h"
 
 #include <vector>
@@ -17,7 +17,7 @@ Limits limits_of(const PaperFlow& paper) {
   return {2 * ONE, 8 * ONE, 16384};
 }
 
-// sh, for a cell without a table
+// Returns sh, for a cell without a table.
 Int share_of(const State& state, const Cell& cell) {
   const Parameters& parameters = state.parameters;
   if (!parameters.thermal_viscosity) return parameters.paper.share;
@@ -25,7 +25,7 @@ Int share_of(const State& state, const Cell& cell) {
   return smaller((parameters.paper.share * mobility) >> 15, limits_of(parameters.paper).most_share);
 }
 
-// The pattern of a liquid cell: a set of directions, as a byte.
+// Returns the pattern of a liquid cell: a set of directions, as a byte.
 Int pattern_of(const State& state, const RandomBytes& random, const Cell& cell, Place at) {
   const PaperFlow& paper = state.parameters.paper;
   const Limits limits = limits_of(paper);
@@ -52,7 +52,7 @@ Int pattern_of(const State& state, const RandomBytes& random, const Cell& cell, 
   return pattern;
 }
 
-// alpha of a cell: by what is below it.
+// Returns alpha of a cell, by what is below it.
 Int alpha_of(const State& state, Place at) {
   const PaperFlow& paper = state.parameters.paper;
   if (at.y == 0) return paper.alpha_floor;

@@ -1,4 +1,4 @@
-// docs/automaton.md section 11: spread under the viscous law.
+// Spread under the viscous law follows docs/automaton.md section 11.
 #include "state.h"
 
 #include <vector>
@@ -6,7 +6,7 @@
 namespace oracle {
 namespace {
 
-// slope[t]: floor((numerator + floor(q / 2)) / q).
+// Returns slope[t]: floor((numerator + floor(q / 2)) / q).
 constexpr Int slope(Int t, bool diagonal) {
   const Int root = 65536 + 256 * t * t + t * t * t * t;
   const Int q = diagonal ? root * root : 256 + 2 * t * t;
@@ -14,7 +14,7 @@ constexpr Int slope(Int t, bool diagonal) {
   return (numerator + q / 2) / q;
 }
 
-// The same as the page lists it, from t = 0 on: first for an axis, then for a diagonal.
+// The page lists the same from t = 0 on, first for an axis, then for a diagonal.
 constexpr Int SLOPES[2][17] = {{16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923, 10034, 9198,
                                 8422, 7710, 7061, 6473, 5941, 5461},
                                {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511, 8165, 6880,
@@ -26,27 +26,27 @@ constexpr bool slopes_are_as_listed() {
 }
 static_assert(slopes_are_as_listed());
 
-// t; `giver` and `taker` are what the cells of the pair show.
+// Returns t. `giver` and `taker` are what the cells of the pair show.
 Int tilt(const Run& giver, const Run& taker) {
   if (!taker.bed.has_value()) return 0;
   const Int difference = (*giver.bed >> 5) - (*taker.bed >> 5);
   return smaller(16, larger(difference, -difference));
 }
 
-// R of an axis between cells at height y.
+// Returns R of an axis between cells at height y.
 Int rounding(const State& state, Int axis, Int y) {
   const Int D = (dither(state.step, axis, 4) + dither(y)) % 65536;
   const Int u = state.substep, K = state.substeps;
   return (D + 65536 * ((u + axis * K / 4) % K)) / K;
 }
 
-// a: what the pair holds at its face.
+// Returns a, the amount that the pair holds at its face.
 Int amount_between(const Run& taker, Int t, Int A_i, Int A_j) {
   const bool level = taker.bed.has_value() && t == 0;
   return level ? (A_i + A_j + 1) >> 1 : A_i;
 }
 
-// What flows from the run cell i in a direction: the pair is computed once, by its giver.
+// Lets the run cell i give in a direction. The pair is computed once, by its giver.
 void give(State& state, Int i, Place at, const Direction& direction) {
   if (!is_open(state, at, direction)) return;
   const Run& giver = state.runs[i];

@@ -1,4 +1,4 @@
-// docs/automaton.md sections 1, 2 (open neighbours), 3 (end of a phase) and 15 (bounds).
+// The state follows docs/automaton.md sections 1, 2 (open neighbours), 3 (end of a phase) and 15 (bounds).
 #include "state.h"
 
 #include "npy.h"

@@ -1,4 +1,4 @@
-// docs/automaton.md section 1: the state; and what a step keeps beside it.
+// The state is that of docs/automaton.md section 1, with the data that a step keeps beside it.
 #pragma once
 #include "ledger.h"
 #include "parameters.h"
@@ -11,7 +11,7 @@
 
 namespace oracle {
 
-// A broken invariant (section 1), bound (docs/proofs.md) or ledger (section 12).
+// Reports a broken invariant (section 1), bound (docs/proofs.md) or ledger (section 12).
 struct Violation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,14 +21,14 @@ struct Cell {
   Int amount = 0, energy = 0, heat = 0;
 };
 
-// What a cell gives and takes in one spread (sections 9 and 11).
+// Holds what a cell gives and takes in one spread (sections 9 and 11).
 struct Exchange {
   Int given = 0, taken = 0;
   Int energy_given = 0, energy_taken = 0;
   Int heat_taken = 0;  // sum of f_in h_j
 };
 
-// What a cell in a run shows its neighbours (section 10).
+// Holds what a cell in a run shows its neighbours (section 10).
 struct Run {
   Int member = 0;  // 1: the cell is in a run
   std::optional<Int> bed;
@@ -58,7 +58,7 @@ struct State {
   Ledgers ledgers;
   Counters counters;
 
-  // All cells of matter, and some that have lost theirs; the others are empty or inert.
+  // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
   std::vector<Int> listed;
 
@@ -73,7 +73,7 @@ struct State {
   // The border is inert (section 1): blocked, never air.
   bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
   bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
-  // Section 8: a side that melted in this very step still counts under the paper law.
+  // Under the paper law a side that melted in this very step still counts (section 8).
   bool wall(Int x, Int y, Int z) const {
     if (blocked(x, y, z)) return true;
     return parameters.paper_law && melted_in[index(x, y, z)] == step;
@@ -90,7 +90,7 @@ struct State {
   }
 };
 
-// Horizontal directions (section 2); the last four are diagonals.
+// There are eight horizontal directions (section 2). The last four are diagonals.
 struct Direction {
   Int dx, dz;
   bool diagonal;
@@ -102,23 +102,24 @@ constexpr Direction DIRECTIONS[8] = {
 };
 bool is_open(const State& state, Place from, const Direction& d);  // section 2
 
-// state.cpp
+// These are in state.cpp.
 State read_state(const std::string& folder);
 void write_fields(const State& state, const std::string& folder);
 void finish_phase(State& state, const char* name);             // section 3, last sentence
 void check_cell(const State& state, Int i, const char* when);  // section 1, docs/proofs.md
 void check_all(const State& state, const char* when);
 void forget_empty_cells(State& state);
-// The receiver's heat, once it has f > 0 of the giver too (section 2); called before the amounts change.
+// Sets the receiver's heat, once it has f > 0 of the giver too (section 2). It is called before the amounts
+// change.
 void mix_heat(State& state, Cell& receiver, const Cell& giver, Int f);
 
-// The columns that hold liquid, with their lowest and highest liquid cell.
+// Names a column that holds liquid, with its lowest and highest liquid cell.
 struct Column {
   Int x, z, low, high;
 };
 std::vector<Column> columns_with_liquid(const State& state);
 
-// The phases of section 3
+// These are the phases of section 3.
 void find_irradiance(State& state);                     // section 5
 void source(State& state);                              // section 4
 void heat(State& state);                                // section 6

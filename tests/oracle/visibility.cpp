@@ -1,9 +1,10 @@
-// docs/automaton.md section 5: which rays see their source, and what the cells get from it.
+// Visibility tells which rays see their source, and what the cells get from it (docs/automaton.md section 5).
 //
-// A ray is cut into the layers of cells along its longest axis. In a layer it meets few cells; each opaque
-// one of them is tested by itself: the ray, as the set of t in (0, 1) with start + t delta, and the cell's
-// interior, as an open interval of t per axis, have a point in common. All numbers are exact fractions.
-// A ray may start on the border of a cell; the test needs no exception for that, nor for the ray's own cell.
+// A ray is cut into the layers of cells along its longest axis. In a layer it meets few cells, and each
+// opaque one of them is tested by itself. The ray is the set of t in (0, 1) with start + t delta. The cell's
+// interior is an open interval of t per axis. They must have a point in common. All numbers are exact
+// fractions. A ray may start on the border of a cell. The test needs no exception for that, nor for the ray's
+// own cell.
 #include "kinds.h"
 
 #include <array>
@@ -33,9 +34,9 @@ struct Opaque {
 
 Int magnitude(Int a) { return a < 0 ? -a : a; }
 
-// Is there a t in (0, 1) with from + t delta strictly inside the cell?
+// Tells if there is a t in (0, 1) with from + t delta strictly inside the cell.
 bool meets_interior(const Ray& ray, const std::array<Int, 3>& cell) {
-  // The open intervals (low / length, high / length) of t; the first is the segment itself.
+  // The open intervals of t are (low / length, high / length). The first is the segment itself.
   Int low[4] = {0}, high[4] = {1}, length[4] = {1};
   std::size_t count = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -57,7 +58,7 @@ bool meets_interior(const Ray& ray, const std::array<Int, 3>& cell) {
   return true;
 }
 
-// The cell coordinate on an axis where the ray has gone the way `gone` along its longest axis.
+// Returns the cell coordinate on an axis, when the ray has gone the way `gone` along its longest axis.
 Int cell_coordinate(const Ray& ray, std::size_t axis, Int gone) {
   const Int length = magnitude(ray.delta[ray.longest]);
   return floor_divide(ray.from[axis] * length + ray.delta[axis] * gone, 16 * length);
@@ -126,13 +127,13 @@ Ray ray_between(const Point& from, const Point& to) {
   return ray;
 }
 
-// A source at one step.
+// Holds a source at one step.
 struct Light {
   const Kind& kind;
   Key now;
 };
 
-// N of section 5: the sum of w over all rays of the cell that see the source.
+// Returns N of section 5: the sum of w over all rays of the cell that see the source.
 Int seen(const State& state, const Opaque& opaque, const Light& light, const Turns& turns, Int cell) {
   const Place p = state.place(cell);
   const Int R = state.parameters.heat.rays_per_face;

@@ -1,4 +1,4 @@
-// Pressed light and bytes: docs/picture/light.md sections 7 and 8.
+// Pressed light and bytes follow docs/picture/light.md sections 7 and 8.
 #pragma once
 #include "numbers.h"
 

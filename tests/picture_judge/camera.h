@@ -1,4 +1,4 @@
-// The view of a camera and the ray of a place: docs/picture/definition.md sections 3 and 4.
+// The view of a camera and the ray of a place follow docs/picture/definition.md sections 3 and 4.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ struct View {
 
 struct Ray {
   Vec start, step;
-  Int halvings = 0;  // of the step: section 10
+  Int halvings = 0;  // halvings of the step: section 10
 };
 
 inline Vec times30(Vec a, Int b) {
   return {rounded(a.x * b, 30), rounded(a.y * b, 30), rounded(a.z * b, 30)};
 }
 
-// Section 3, "Parallel rays": from wide, high and eye as they would be otherwise.
+// Changes wide, high and eye for parallel rays (section 3, "Parallel rays").
 inline void orthographic(View& view, Int near, Int distance, Int tangent, Int H) {
   view.near = near;
   if (near < 1) {
@@ -90,7 +90,7 @@ inline View make_view(const Input& in) {
     return view;
   }
   view.near = std::max<Int>(0, least - 3);
-  // Section 10: e.
+  // Section 10 defines e.
   const Int scale = tangent * view.near, limit = 15 * H * power_of_two(25);
   view.halvings = scale >= 2 * limit ? 0 : scale >= limit ? 1 : 2;
   view.near_wide = (view.wide * view.near) / (512 * H);
@@ -98,7 +98,7 @@ inline View make_view(const Input& in) {
   return view;
 }
 
-// Section 4: the ray of the place (X, Y), in 64ths of a pixel, with a step of 2^-m cells.
+// Returns the ray of the place (X, Y), in 64ths of a pixel, with a step of 2^-m cells (section 4).
 inline Ray make_ray(const View& view, Int X, Int Y, Int m) {
   const Int u = X - 32 * view.width, v = 32 * view.height - Y;
   const Vec direction = view.forward * (32 * view.height) + view.wide * u + view.high * v;
@@ -118,7 +118,7 @@ struct Range {
   Int first, last;
 };
 
-// Section 5: the k from 0 on with low <= start + k step < high on every axis.
+// Returns the k from 0 on with low <= start + k step < high on every axis (section 5).
 inline Range range_in_box(Vec start, Vec step, Vec low, Vec high) {
   Range range{0, INT64_MAX};
   for (int axis = 0; axis < 3; ++axis) {

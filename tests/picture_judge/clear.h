@@ -1,4 +1,4 @@
-// The walk of a ray through clear matter: docs/picture/translucent.md sections 2 to 7.
+// The walk of a ray through clear matter follows docs/picture/translucent.md sections 2 to 7.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include "bytes.h"
 #include "color.h"
 
-// What a walk needs to know of a scene, and of the ground on its ray.
+// Holds what a walk needs to know of a scene.
 struct ClearScene {
   const Look& look;
   const Levels& levels;
@@ -19,7 +19,7 @@ class ClearWalk {
   ClearWalk(const ClearScene& the_scene, const Ray& the_ray, Int the_m)
       : scene(the_scene), ray(the_ray), m(the_m), e(to_eye_of(ray)), length(dot(-ray.step >> 4, e) >> 14) {}
 
-  // Section 3. Tells whether the walk ends at the ground.
+  // Walks as section 3 says. Tells if the walk ends at the ground.
   bool walk(const GroundHit& ground) {
     const Int G = ground.part >> 8;
     Int from = 0;
@@ -58,7 +58,7 @@ class ClearWalk {
       from = k + 1;
     }
   }
-  // Section 7.
+  // These give the colours of section 7.
   Vec color_at_ground(const Press& press, Vec ground_color) const {
     return press(mirrored + ((scattered + product(passed(), ground_color)) >> 15));
   }
@@ -69,9 +69,9 @@ class ClearWalk {
 
  private:
   bool is_air(Int k) const { return scene.levels.sample(place_of_sample(ray, k)) < 0; }
-  // Section 4.
+  // Section 4 defines the part.
   Int part(Int a, Int n) const { return (length * a) >> n; }
-  // Section 2.
+  // Section 2 defines what has passed.
   Vec passed() const {
     Vec result;
     for (int channel = 0; channel < 3; ++channel)
@@ -82,7 +82,7 @@ class ClearWalk {
   bool nothing_passes() const { return largest_magnitude(passed()) == 0; }
   void dim(Int lost) { left = (left * (4096 - lost)) >> 12; }
   void scatter(Vec before, Vec color) { scattered = scattered + product(before - passed(), color); }
-  // Section 5.
+  // Section 5 defines a crossing.
   void cross(Vec q, bool enters) {
     const Surface surface =
         surface_at(scene.look, scene.grid, scene.bytes, q, matter_normal(scene.levels, q));
@@ -93,7 +93,7 @@ class ClearWalk {
     dim(mixed(scene.look.clear.frost, 4096, surface.w));
     scatter(before, body_of(surface));
   }
-  // Section 6: d at the position of sample k.
+  // Goes the way d at the position of sample k (section 6).
   void go(Int d, Int k) {
     const Vec q = place_of_sample(ray, k);
     const Look& look = scene.look;

@@ -1,4 +1,4 @@
-// What clear matter lets pass: docs/picture/translucent.md sections 1 and 2.
+// Clear matter lets light pass as docs/picture/translucent.md sections 1 and 2 say.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class ClearLook {
     }
     passing.push_back(0);
   }
-  // Of a way in 2^-8 cells.
+  // Returns the light that passes a way in 2^-8 cells.
   Int passes(Int way, Int lost) const { return passing[std::min<Int>((way * lost) >> 12, 2047)]; }
 
   bool is_clear = false;

@@ -1,11 +1,11 @@
-// What matter is made of and the colours of surfaces: docs/picture/light.md sections 3 and 6.
+// The bytes of matter and the colours of surfaces follow docs/picture/light.md sections 3 and 6.
 #pragma once
 
 #include <algorithm>
 
 #include "light.h"
 
-// Section 3: three bytes of each cell.
+// Holds three bytes of each cell (section 3).
 class MatterBytes {
  public:
   MatterBytes(const Input& in, const Look& look, const Field& field, const Levels& the_levels)
@@ -21,7 +21,7 @@ class MatterBytes {
           obstacle.push_back(air || S + L + O == 0 ? 0 : 255 * O / (S + L + O));
         }
   }
-  // At the nearest position between the centres of the outermost cells.
+  // Reads at the nearest position between the centres of the outermost cells.
   Int read(const Ints& bytes, Vec p) const {
     const Int half = power_of_two(19), m[3] = {levels.nx, levels.ny, levels.nz};
     for (int axis = 0; axis < 3; ++axis) p.at(axis) = clamped(p.at(axis), half, (m[axis] << 20) - half);
@@ -37,7 +37,7 @@ class MatterBytes {
 
 inline Int cosine(Vec a, Vec b) { return dot(a, b) >> 14; }
 
-// Section 6, arriving light.
+// Returns the arriving light (section 6).
 inline Vec arriving_light(const Look& look, const LightBytes& light, Vec n, bool with_glow) {
   const Int facing = cosine(n, look.to_light);
   const Int lit = (((std::max<Int>(facing + 2458, 0) * 14247) >> 14) * whole(light.lamp)) >> 8;
@@ -55,7 +55,7 @@ inline Vec ground_color(const Look& look, const LightGrid& grid, Vec p, Vec norm
   return product(arriving, color) >> 12;
 }
 
-// Section 6: l and w.
+// Holds l and w of section 6.
 struct Shares {
   Int liquid, obstacle;
 };
@@ -63,7 +63,7 @@ inline Shares shares_of(Int liquid, Int obstacle) {
   return {16 * liquid + (liquid >> 4), clamped(73 * (obstacle - 148), 0, 4096)};
 }
 
-// Section 6: light and matter at a surface, with no eye yet.
+// Holds light and matter at a surface, with no eye yet (section 6).
 struct Surface {
   Vec n, arriving, emission;
   Int w = 0;
@@ -90,7 +90,7 @@ inline Vec body_of(const Surface& surface) {
   return product(surface.arriving, surface.material.diffuse) >> 12;
 }
 
-// What an eye in the direction e sees in the surface as in a mirror, where `n` points to its side.
+// Holds what an eye in the direction e sees in the surface as in a mirror. `n` points to the eye's side.
 struct Mirrored {
   Int eye = 0, more = 0;
   Vec shine;  // highlight and surroundings

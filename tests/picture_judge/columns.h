@@ -1,4 +1,4 @@
-// Columns, their beds and their puddles: docs/picture/field.md sections 2 to 4.
+// Columns, their beds and their puddles follow docs/picture/field.md sections 2 to 4.
 #pragma once
 
 #include <algorithm>
@@ -18,20 +18,20 @@ struct Column {
   Int depth = 0, level = 0, shift = 0;
 };
 
-// The state as section 2 reads it; above the grid there is air.
+// Reads the state as section 2 does. Above the grid there is air.
 struct State {
   const Input& in;
   Int mask(Int x, Int y, Int z) const { return y >= in.ny ? 0 : in.mask[in.cell(x, y, z)]; }
   bool solid(Int x, Int y, Int z) const { return (mask(x, y, z) & 1) != 0; }
   bool liquid(Int x, Int y, Int z) const { return (mask(x, y, z) & 2) != 0; }
   bool inert(Int x, Int y, Int z) const { return (mask(x, y, z) & 4) != 0; }
-  // a of section 2
+  // Returns a of section 2.
   Int matter(Int x, Int y, Int z) const {
     return solid(x, y, z) || liquid(x, y, z) ? std::min(in.amount[in.cell(x, y, z)], ONE) : 0;
   }
 };
 
-// Section 3, without what needs other columns.
+// Computes section 3, but for the numbers that need other columns.
 inline Column column_of(const State& state, Int x, Int z) {
   const Input& in = state.in;
   Column c;
@@ -55,7 +55,7 @@ inline Column column_of(const State& state, Int x, Int z) {
   return c;
 }
 
-// Section 3: filled, sink and rise.
+// Computes filled, sink and rise (section 3).
 inline void fill_grounds(const Input& in, std::vector<Column>& columns) {
   for (Int z = 0; z < in.nz; ++z)
     for (Int x = 0; x < in.nx; ++x) {
@@ -74,7 +74,7 @@ inline void fill_grounds(const Input& in, std::vector<Column>& columns) {
     }
 }
 
-// Section 4.
+// Section 4 defines this share.
 inline Int share_of_bend(Int d) { return clamped(8192 - (magnitude(d) >> 4), 0, 4096); }
 
 inline void level_puddles(const State& state, std::vector<Column>& columns) {

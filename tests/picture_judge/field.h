@@ -1,4 +1,4 @@
-// The filtered channels: docs/picture/field.md sections 2 and 5 to 7.
+// The filtered channels follow docs/picture/field.md sections 2 and 5 to 7.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 #include "columns.h"
 
 struct Field {
-  Ints intensity, solid, liquid, heat, obstacle;  // of each cell, filtered
+  Ints intensity, solid, liquid, heat, obstacle;  // one number for each cell, filtered
 };
 
 inline Int intensity_of(Int a) { return 16 * a - ((a + 15) >> 4); }
 
-// Section 5: a puddle is moved.
+// Moves a puddle (section 5).
 inline void move_puddle(const State& state, const Column& c, Int x, Int z, Int argument, Ints& intensity) {
   const Input& in = state.in;
   const Int s = clamped(argument, -ONE, ONE), p = magnitude(s);
@@ -30,9 +30,9 @@ inline void move_puddle(const State& state, const Column& c, Int x, Int z, Int a
   }
 }
 
-// Section 6: n passes. A cell outside has the value of the nearest cell inside before the first pass
-// and is filtered like any other: so n cells more on every side. The outermost of those go wrong by
-// one cell a pass and never reach the grid.
+// Filters in n passes (section 6). A cell outside has the value of the nearest cell inside before the first
+// pass and is filtered like any other. So there are n cells more on every side. The outermost of those go
+// wrong by one cell a pass and never reach the grid.
 inline Ints filtered(const Input& in, const Ints& channel, Int passes) {
   const Int n[3] = {in.nx + 2 * passes, in.ny + 2 * passes, in.nz + 2 * passes};
   const auto place = [&n](Int x, Int y, Int z) { return (z * n[1] + y) * n[0] + x; };
@@ -65,7 +65,7 @@ inline Ints filtered(const Input& in, const Ints& channel, Int passes) {
   return result;
 }
 
-// Section 7.
+// Section 7 defines the mixed intensity.
 inline Int mixed_intensity(Int F, Int G, Int s, Int l, Int o) {
   const Int all = (s + l + o + 3) >> 2, soft = (l + 3) >> 2;
   const Int over = clamped(5 * soft - 2 * all, 0, 2 * all);

@@ -1,4 +1,4 @@
-// The ground's heights, where a ray meets it and its normal: docs/picture/ground.md sections 1 to 5.
+// The ground's heights, its crossing with a ray and its normal follow docs/picture/ground.md sections 1 to 5.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class Ground {
     highest = *std::max_element(bare.begin(), bare.end());
     lowest = *std::min_element(bare.begin(), bare.end());
   }
-  // Section 2.
+  // Section 2 defines the height.
   Int height_of(const Ints& heights, Int px, Int pz) const {
     const CellWeight x = cell_weight(px), z = cell_weight(pz);
     const auto at = [&](Int i, Int k) { return heights[clamped(k, 0, nz - 1) * nx + clamped(i, 0, nx - 1)]; };
@@ -39,12 +39,12 @@ class Ground {
                    blended(at(x.cell, z.cell + 1), at(x.cell + 1, z.cell + 1), x.weight), z.weight);
   }
   Int bare_height(Int px, Int pz) const { return height_of(bare, px, pz); }
-  // Section 3.
+  // Section 3 defines the inside.
   bool contains(Vec p) const {
     return 0 <= p.x && p.x < (nx << 20) && 0 <= p.z && p.z < (nz << 20) && 0 <= p.y &&
            (p.y >> 8) < height_of(drawn, p.x, p.z);
   }
-  // Section 5, the top.
+  // Returns the normal of the top (section 5).
   Vec top_normal(Int px, Int pz) const {
     const Int h = power_of_two(19);
     const auto rim = [h](Int p, Int n) {
@@ -83,15 +83,15 @@ struct GroundHit {
   Int part = 0;
   Vec crossing;
   Face face = Face::top;
-  Int halvings = 0;  // of the step: docs/picture/definition.md 10
-  // docs/picture/definition.md 9
+  Int halvings = 0;  // halvings of the step: docs/picture/definition.md 10
+  // Section 9 of docs/picture/definition.md defines the order.
   bool drawn_before(const MatterHit& matter) const {
     const Int bias = face == Face::top ? 0 : 1024 * power_of_two(halvings);
     return met && (!matter.met || 8 * part <= matter.place() + bias);
   }
 };
 
-// Section 4.
+// Section 4 defines where a ray meets the ground.
 inline GroundHit meet_ground(const Ground& ground, const Ray& ray) {
   GroundHit hit;
   hit.halvings = ray.halvings;
@@ -137,7 +137,7 @@ inline GroundHit meet_ground(const Ground& ground, const Ray& ray) {
   }
 }
 
-// Section 5.
+// Section 5 defines the normal.
 inline Vec ground_normal(const Ground& ground, const GroundHit& hit) {
   const Int length = power_of_two(14);
   switch (hit.face) {

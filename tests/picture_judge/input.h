@@ -1,4 +1,4 @@
-// The file that describes a state, a look, a light, a terrain and a camera.
+// The input file describes a state, a look, a light, a terrain and a camera.
 #pragma once
 #include <cstddef>
 #include <cstdlib>
@@ -32,14 +32,14 @@ struct Input {
   bool orthographic = false;
   bool has_terrain = false, textured = false;
   std::string setting;
-  Ints mask, amount, heat;      // (z ny + y) nx + x
-  std::vector<double> terrain;  // z nx + x
+  Ints mask, amount, heat;      // index (z ny + y) nx + x
+  std::vector<double> terrain;  // index z nx + x
 
   Int cell(Int x, Int y, Int z) const { return (z * ny + y) * nx + x; }
   Int column(Int x, Int z) const { return z * nx + x; }
 };
 
-// stod reads a decimal double back exactly.
+// The function strtod reads a decimal double back exactly.
 inline double number_from(std::istream& words) {
   std::string word;
   if (!(words >> word)) throw std::runtime_error("a number is missing");

@@ -1,4 +1,4 @@
-// The grid of light and its sweeps: docs/picture/light.md sections 4 and 5.
+// The grid of light and its sweeps follow docs/picture/light.md sections 4 and 5.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include "ground.h"
 #include "look.h"
 
-// Section 3: the heat byte of a cell, without the rule for cells of air.
+// Returns the heat byte of a cell, without the rule for cells of air (section 3).
 inline Int heat_byte(const Look& look, Int L, Int H) {
   const Int t = L == 0 || !look.glows ? 0 : 256 * std::min<Int>(256 * H / L, 256);
   return clamped(floor_divided(255 * (t - look.cold), std::max<Int>(look.hot - look.cold, 1)), 0, 255);
@@ -14,7 +14,7 @@ inline Int heat_byte(const Look& look, Int L, Int H) {
 inline Int passed(Int a, Int loss) { return (a * (256 - loss) + 128) >> 8; }
 inline Int whole(Int b) { return b + (b >> 7); }
 
-// What a place in front of a surface has of light: bytes, sides in the order +x, -x, +y, -y, +z, -z.
+// Holds the light of a place in front of a surface: bytes, sides in the order +x, -x, +y, -y, +z, -z.
 struct LightBytes {
   Int lamp = 0, open[6] = {}, glow[6] = {};
 };
@@ -40,7 +40,7 @@ class LightGrid {
     else
       for (Ints& g : glow) g.assign(loss.size(), 0);
   }
-  // Section 5: light at a surface.
+  // Returns the light at a surface (section 5).
   LightBytes at_surface(Vec p, Vec normal) const { return at(p + (normal << (6 + s))); }
   LightBytes at(Vec position) const {
     const Vec q = position >> s;
@@ -60,7 +60,7 @@ class LightGrid {
 
  private:
   Int place(Int x, Int y, Int z) const { return (z * n[1] + y) * n[0] + x; }
-  // Section 4.
+  // Fills the grid (section 4).
   void fill(const Input& in, const Look& look, const Field& field, const Ground& ground) {
     const Int width = power_of_two(s);
     for (Int Z = 0; Z < n[2]; ++Z)
@@ -86,13 +86,13 @@ class LightGrid {
           emission.push_back(glowing >> (3 * s));
         }
   }
-  // docs/picture/translucent.md 8: o is the obstacles' part of a.
+  // Thins the loss (docs/picture/translucent.md 8). o is the obstacles' part of a.
   Int thinned(const Look& look, Int a, Int o) const {
     const Int share = (180 * (256 - (look.clear.passes(power_of_two(s + 8), look.clear.loss.y) >> 7))) >> 8;
     const Int d = a - o;
     return o + (d <= 12 ? d : 12 + (((d - 12) * share) >> 8));
   }
-  // Section 5, the lamp: which rays are kept, and all others hold 255.
+  // Sweeps the lamp. Section 5 says which rays are kept; all others hold 255.
   void sweep_lamp(Vec to_light) {
     lamp.assign(loss.size(), 255);
     const Int D = largest_magnitude(to_light);
@@ -105,7 +105,7 @@ class LightGrid {
     const Int slope_u = D == 0 ? 0 : floor_divided(power_of_two(14) * to_light.at(axis_u), D);
     const Int slope_v = D == 0 ? 0 : floor_divided(power_of_two(14) * to_light.at(axis_v), D);
     const auto way = [](Int slice, Int slope) { return (slice * slope) >> 6; };
-    const auto behind = [&](Int slope) { return way(slices, slope) >> 8; };  // c of the page
+    const auto behind = [&](Int slope) { return way(slices, slope) >> 8; };  // c on the page
     const auto lowest = [&](Int slope) { return std::min<Int>(0, behind(slope)) - 1; };
     const auto count = [&](Int slope, Int size) {
       return size + std::max<Int>(0, behind(slope)) + 2 - lowest(slope) + 1;
@@ -154,7 +154,7 @@ class LightGrid {
       }
     }
   }
-  // Section 5, openness and glow from one side.
+  // Sweeps openness and glow from one side (section 5).
   void sweep_side(int side, bool glowing) {
     const int axis = side / 2, axis_u = axis == 0 ? 1 : 0, axis_v = axis == 2 ? 1 : 2;
     const Int nu = n[axis_u], nv = n[axis_v], slices = n[axis], beside = glowing ? 0 : 255;

@@ -1,4 +1,4 @@
-// The look in integers and its tables: docs/picture/light.md sections 1 and 2.
+// The look in integers and its tables follow docs/picture/light.md sections 1 and 2.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class Look {
     lamp_high = 3809 + times(287, blur);
     strip_low = 3277 - times(1229, blur);
   }
-  // Section 1: a power of 2 brings the largest magnitude to 1/2 or more, and below 1.
+  // Scales by a power of 2 that brings the largest magnitude to 1/2 or more, and below 1 (section 1).
   static Vec direction_to_lamp(double x, double y, double z) {
     const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
     if (!(largest > 0)) throw std::runtime_error("the lamp has no direction");
@@ -74,7 +74,7 @@ class Look {
     return unit_of({scaled_number(std::ldexp(x, power), 24), scaled_number(std::ldexp(y, power), 24),
                     scaled_number(std::ldexp(z, power), 24)});
   }
-  // Section 2: the cosine is 0 to 2^14.
+  // Reads a table for a cosine from 0 to 2^14 (section 2).
   static Int highlight_of(const Ints& table, Int c) {
     const Int i = c >> 4;
     return table[i] + (((table[i + 1] - table[i]) * (c & 15)) >> 4);

@@ -1,5 +1,6 @@
-// picture_judge --picture FILE draws the picture; --field FILE writes filtered channels and drawn heights;
-// --surface FILE writes five numbers of 8 bytes for each pixel: what it shows, where, and how deep.
+// With --picture FILE, picture_judge draws the picture. With --field FILE it writes filtered channels and
+// drawn heights. With --surface FILE it writes five numbers of 8 bytes for each pixel: what it shows, where,
+// and how deep.
 #include <exception>
 #include <iostream>
 #include <stdexcept>

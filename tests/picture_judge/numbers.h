@@ -1,4 +1,4 @@
-// Integers, vectors, roots and angles: docs/picture/definition.md sections 1, 2 and 8 (unit).
+// Integers, vectors, roots and angles follow docs/picture/definition.md sections 1, 2 and 8 (unit).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 using Int = std::int64_t;
 using Ints = std::vector<Int>;
 
-// docs/picture/definition.md 1: a / b rounds down, also for a negative a.
+// Divides and rounds down, also for a negative a (docs/picture/definition.md 1).
 inline Int floor_divided(Int a, Int b) {
   if (b <= 0) throw std::runtime_error("division by a number that is not positive");
   const Int q = a / b;
@@ -22,14 +22,14 @@ inline Int rounded(Int a, Int n) { return (a + power_of_two(n - 1)) >> n; }
 inline Int magnitude(Int a) { return a < 0 ? -a : a; }
 inline Int clamped(Int v, Int low, Int high) { return v < low ? low : v > high ? high : v; }
 
-// floor(v 2^n + 1/2), with no rounding of the sum.
+// Returns floor(v 2^n + 1/2), with no rounding of the sum.
 inline Int scaled_number(double v, int n) {
   const double product = std::ldexp(v, n);
   const double whole = std::floor(product);
   return static_cast<Int>(whole) + (product - whole >= 0.5 ? 1 : 0);
 }
 
-// Least b with x < 2^b (docs/picture/definition.md 8).
+// Returns the least b with x < 2^b (docs/picture/definition.md 8).
 inline Int bits(Int x) {
   Int b = 0;
   while (x >= power_of_two(b)) ++b;
@@ -48,7 +48,7 @@ inline Int floor_root(Int x) {
   return low;
 }
 
-// docs/picture/definition.md 6.
+// Blends a and b (docs/picture/definition.md 6).
 inline Int blended(Int a, Int b, Int w) { return (a * (256 - w) + b * w + 128) >> 8; }
 
 struct Vec {
@@ -68,10 +68,10 @@ inline Vec operator/(Vec a, Int d) {
 inline Int dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Int largest_magnitude(Vec a) { return std::max({magnitude(a.x), magnitude(a.y), magnitude(a.z)}); }
 
-// docs/picture/definition.md 8: R[i] is 2^15 / sqrt(i / 128).
+// Returns R[i], which is 2^15 / sqrt(i / 128) (docs/picture/definition.md 8).
 inline Int inverse_root(Int i) { return (floor_root(power_of_two(39) / i) + 1) >> 1; }
 
-// docs/picture/definition.md 8: components below 2^15 in magnitude, brought to length 2^14.
+// Brings components below 2^15 in magnitude to length 2^14 (docs/picture/definition.md 8).
 inline Vec unit(Vec g) {
   const Int largest = largest_magnitude(g);
   if (largest == 0) return g;
@@ -96,7 +96,7 @@ struct SineCosine {
   Int sine, cosine;
 };
 
-// docs/picture/definition.md 2: the angle counts in 2^-16 degrees, the results in 2^-30.
+// Takes the angle in 2^-16 degrees and gives results in 2^-30 (docs/picture/definition.md 2).
 inline SineCosine sine_cosine(Int a) {
   const Int quarter = 5898240;
   const Int q = floor_divided(a, quarter);

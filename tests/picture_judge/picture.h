@@ -1,4 +1,4 @@
-// What a ray meets, samples, settings and bytes: docs/picture/definition.md sections 9 and 10.
+// Hits of rays, samples, settings and bytes follow docs/picture/definition.md sections 9 and 10.
 #pragma once
 
 #include <string>
@@ -39,7 +39,7 @@ inline Vec ground_color_of(const Scene& scene, const Ray& ray, const GroundHit& 
   return ground_color(scene.look, scene.grid, ground.crossing, normal, look.color);
 }
 
-// A sample: the pressed light of the ray through the place (X, Y).
+// Takes a sample: the pressed light of the ray through the place (X, Y).
 inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
   const Ray ray = make_ray(scene.view, X, Y, m);
   const GroundHit ground = meet_ground(scene.ground, ray);
@@ -59,7 +59,8 @@ inline Vec sample_of(const Scene& scene, Int X, Int Y, Int m) {
   return scene.look.background;
 }
 
-// What the middle of pixel (i, j) shows: 0 nothing, 1 matter, 2 the ground; where; and section 8's z.
+// Tells what the middle of pixel (i, j) shows (0 nothing, 1 matter, 2 the ground), and where. z is that of
+// section 8.
 struct Met {
   Int kind = 0;
   Vec position;

@@ -1,4 +1,4 @@
-// Levels, samples, the crossing of matter and its normal: docs/picture/definition.md sections 5 to 8.
+// Levels, samples, the crossing of matter and its normal follow docs/picture/definition.md sections 5 to 8.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include "camera.h"
 #include "field.h"
 
-// Cell and weight of a sample (section 6).
+// Holds cell and weight of a sample (section 6).
 struct CellWeight {
   Int cell, weight;
 };
@@ -15,7 +15,7 @@ inline CellWeight cell_weight(Int p) {
   return {s >> 20, (s >> 12) & 255};
 }
 
-// Eight values around a position, blended along x, then y, then z.
+// Blends eight values around a position along x, then y, then z.
 template <class ValueOf>
 Int blended_eight(Vec p, ValueOf value_of) {
   const CellWeight x = cell_weight(p.x), y = cell_weight(p.y), z = cell_weight(p.z);
@@ -70,7 +70,7 @@ struct Crossing {
   Int part = 0;  // in 2048ths of the way from the sample in air to the one in matter
 };
 
-// Section 7: A lies in air and B in matter.
+// Finds the crossing between A in air and B in matter (section 7).
 inline Crossing crossing_between(const Levels& levels, Vec A, Vec B) {
   Int a = levels.sample(A), b = levels.sample(B), e = 0;
   for (int middle = 0; middle < 3; ++middle) {
@@ -100,7 +100,7 @@ struct MatterHit {
   Int place() const { return (sample - 1) * 2048 + crossing.part; }  // section 9
 };
 
-// Section 7, from sample `from` on.
+// Looks for matter from sample `from` on (section 7).
 inline MatterHit meet_matter(const Levels& levels, const Ray& ray, Int from = 0) {
   const Range range = range_in_box(ray.start, ray.step, levels.box_low(), levels.box_high());
   for (Int k = std::max(range.first, from); k <= range.last; ++k) {
@@ -112,7 +112,7 @@ inline MatterHit meet_matter(const Levels& levels, const Ray& ray, Int from = 0)
   return {};
 }
 
-// Section 8.
+// Section 8 defines the normal.
 inline Vec matter_normal(const Levels& levels, Vec p) {
   struct Axis {
     Int cell, value[3], slope[3];
@@ -142,5 +142,5 @@ inline Vec matter_normal(const Levels& levels, Vec p) {
   return unit({-splined_along(0), -splined_along(1), -splined_along(2)});
 }
 
-// Section 9.
+// Section 9 defines the direction to the eye.
 inline Vec to_eye_of(const Ray& ray) { return unit_of(-ray.step); }

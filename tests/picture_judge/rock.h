@@ -1,4 +1,4 @@
-// Noise, the texture of rock and the ground's colour: docs/picture/ground.md sections 6 to 8.
+// Noise, the texture of rock and the ground's colour follow docs/picture/ground.md sections 6 to 8.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "ground.h"
 
-// Section 6.
+// Section 6 defines these functions.
 inline Int smooth256(Int t) { return (t * t * (768 - 2 * t)) >> 16; }
 inline Int smooth_step(Int l, Int u, Int v) {
   return smooth256(floor_divided((clamped(v, l, u) - l) * 256, u - l));
@@ -48,7 +48,7 @@ struct GroundLook {
   Vec color, normal;
 };
 
-// Sections 7 and 8.
+// The rock follows sections 7 and 8.
 class Rock {
  public:
   Rock(const Input& in, const Ground& the_ground, Vec base_color)
@@ -74,7 +74,7 @@ class Rock {
       bends[3].push_back(bend({(2 * i + 1) << 19, 0, in.nz << 20}));
     }
   }
-  // Section 8: the colour, and the normal with the bumps.
+  // Returns the colour, and the normal with the bumps (section 8).
   GroundLook look_of(const GroundHit& hit) const {
     const Vec normal = ground_normal(ground, hit);
     if (hit.face != Face::top) return {cut_color(hit), normal};

@@ -57,7 +57,8 @@ double mass(const Twin& twin) {
   return sum;
 }
 
-// No format loses or makes liquid: whole ones to the unit, real ones to their last digits. E <= A holds.
+// No format loses or makes liquid. Whole ones keep it to the unit, real ones to their last digits. E <= A
+// holds.
 TEST(Twin, EveryFormatKeepsMass) {
   Random random(77);
   for (int world = 0; world < 40; ++world) {
@@ -81,9 +82,10 @@ TEST(Twin, EveryFormatKeepsMass) {
   }
 }
 
-// Two solid cells, 1,000 units apart, weight 5,000 / 65536: the warm one loses 76.29 units. By hand in each
-// format: 16 bits truncated 76, nearest 76; at 1,010 units, 77.06: 77; at 1,004.5 of 8 bits there are 4 units
-// of 256 between them, 0.305 of one: none flows truncated or to the nearest.
+// Two solid cells are 1,000 units apart at weight 5,000 / 65536, so the warm one loses 76.29 units. In 16
+// bits that is 76, truncated or to the nearest. At 1,016 units it is 77.51: 77 truncated, 78 to the nearest.
+// In 8 bits 1,024 units are 4 units of 256, and weight 10,000 moves 0.61 of one: none truncated, one to the
+// nearest.
 TEST(Twin, ConductionOfTwoCellsByHand) {
   const auto after = [](Arithmetic arithmetic, std::int32_t warm, std::uint16_t weight) {
     Volume v(Grid{2, 1, 1});
@@ -113,7 +115,7 @@ TEST(Twin, ConductionOfTwoCellsByHand) {
   EXPECT_NEAR(after({Number::f32, Rounding::truncate}, 1000, 5000), 1000. * 5000 / 65536, 1e-3);
 }
 
-// Over 256 steps the dither of one flow of 0.305 units gives what it is on average, truncation gives nothing.
+// Over 256 steps the dither of one flow of 0.305 units gives it right on average. Truncation gives nothing.
 TEST(Twin, DitherIsRightOnAverage) {
   const auto convected = [](Rounding rounding) {
     Volume v(Grid{1, 2, 1});
@@ -133,12 +135,12 @@ TEST(Twin, DitherIsRightOnAverage) {
   EXPECT_EQ(convected(Rounding::nearest), 0);
 }
 
-// What every format makes of numbers of the 16-bit state.
+// Every format takes over numbers of the 16-bit state.
 TEST(Format, NumbersOfSixteenBits) {
   using Eight = Whole<std::uint8_t, Rounding::truncate>;
   using Wider = Whole<std::uint32_t, Rounding::dithered>;
   EXPECT_EQ(Eight::of(0), 0);
-  EXPECT_EQ(Eight::of(1), 1);  // what is there does not vanish
+  EXPECT_EQ(Eight::of(1), 1);  // a number above 0 does not vanish
   EXPECT_EQ(Eight::of(4096), 16);
   EXPECT_EQ(Eight::of(4096 + 128), 17);
   EXPECT_EQ(Eight::of(65535), 255);

@@ -1,4 +1,4 @@
-// Samples of volumes whose numbers are known, and errors of curves computed by hand.
+// Samples are taken of volumes whose numbers are known, and errors of curves are computed by hand.
 #include "accuracy/front/curves.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,9 @@ namespace {
 
 using namespace worlds;
 
-// Two cells of matter on a grid of half the scene's: a full solid one at (0, 1, 1), half a liquid one at
-// (3, 2, 1). The floor's face is at y = 1 and the axis at (2, 1) of the scene's cells, which are two of ours.
+// Two cells of matter lie on a grid of half the scene's: a full solid one at (0, 1, 1), half a liquid one at
+// (3, 2, 1). The floor's face is at y = 1 and the axis at (2, 1) of the scene's cells. A grid cell is two of
+// those.
 Volume two_cells() {
   Volume v(Grid{4, 4, 4});
   put_inert(v, 0, 0, 0);
@@ -29,9 +30,9 @@ TEST(Curves, ASampleByHand) {
   const Sample sample = sample_of(two_cells(), scale);
   EXPECT_DOUBLE_EQ(sample.liquid, 0.5 * 8);
   EXPECT_DOUBLE_EQ(sample.heat, (1 * 0.25 + 0.5 * 0.5) * 8);
-  // Centres 0.5 and 1.5 cells of the grid above the floor, twice as much in the scene's.
+  // The centres are 0.5 and 1.5 cells of the grid above the floor, twice as much in the scene's.
   EXPECT_DOUBLE_EQ(sample.height, (1 * 1. + 0.5 * 3.) / 1.5);
-  // x: 1 and 7 in halves of the scene's cells, from 2: -1 and 5; z: 3 from 1: 2.
+  // In x they are 1 and 7 in the scene's cells, from 2: -1 and 5. In z they are 3 from 1: 2.
   EXPECT_DOUBLE_EQ(sample.radius, std::sqrt((1 * (1. + 4) + 0.5 * (25. + 4)) / 1.5));
 }
 
@@ -51,7 +52,7 @@ TEST(Curves, TheTwinIsSampledAlike) {
 TEST(Curves, ErrorsAreMeansOverTheMeanOfTheReference) {
   const Curves found{{1, 10, 2, 4}, {3, 10, 2, 5}}, reference{{2, 10, 2, 4}, {2, 10, 2, 4}};
   const Errors e = errors(found, reference);
-  EXPECT_DOUBLE_EQ(e.liquid, 0.5);  // one too little, one too much: they do not cancel
+  EXPECT_DOUBLE_EQ(e.liquid, 0.5);  // one too little and one too much do not cancel
   EXPECT_EQ(e.heat, 0);
   EXPECT_EQ(e.height, 0);
   EXPECT_DOUBLE_EQ(e.radius, 0.125);

@@ -1,4 +1,4 @@
-// What is written of a front: every number can be read back, and the page stands alone.
+// The reports of a front are tested: every number can be read back, and the page stands alone.
 #include "report/accuracy/front.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Fronts of a few places, found by hand, and the settings that they name.
+// Fronts of a few places are found by hand, with the settings that they name.
 #include "accuracy/front/pareto.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Pareto, OfEqualPlacesTheFirstStays) {
   EXPECT_EQ(undominated({}), Indices{});
 }
 
-// Beside the definition itself, on places of a small lattice, so that ties are many.
+// The front is held against the definition itself, on places of a small lattice, so that ties are many.
 TEST(Pareto, IsTheDefinition) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::vector<Place> places;
@@ -61,7 +61,7 @@ TEST(Pareto, PicksTheCheapestWithinABound) {
 
 Errors all(double error) { return {error, error / 2, 0, error}; }
 
-// The usual setting, a finer one, one that is dearer and worse, another grid and three formats.
+// The sweep has the usual setting, a finer one, one that is dearer and worse, another grid and three formats.
 Swept swept() {
   Swept one{&all_subjects().front(), {}, {}, 0.002, {}};
   const auto add = [&](Axis axis, const Setting& setting, std::optional<double> seconds, double whole) {
@@ -79,7 +79,7 @@ Swept swept() {
   add(Axis::usual, {}, 1, 0.05);
   add(Axis::step, {.step = 0.5}, 2, 0.008);
   add(Axis::rays, {.rays = 16}, 3, 0.04);
-  add(Axis::grid, {.grid = 0.25}, 0.1, 0.0001);  // right, but of another question
+  add(Axis::grid, {.grid = 0.25}, 0.1, 0.0001);  // right, but it answers another question
   add(Axis::format, {.arithmetic = {Number::u8, Rounding::dithered}}, std::nullopt, 0.5);
   add(Axis::rounding, {.arithmetic = kEngine}, std::nullopt, 0.05);
   add(Axis::format, {.arithmetic = kExact}, std::nullopt, 0.05);
@@ -127,7 +127,7 @@ TEST(Words, PicksName) {
 
 TEST(Words, WhatBeatsTheUsualSettingIsNamed) {
   Swept one = swept();
-  EXPECT_TRUE(faster_and_better(one).empty());  // the right grid point is of another question
+  EXPECT_TRUE(faster_and_better(one).empty());  // the right grid point answers another question
   one.points[1].cost.run_seconds = 0.9;
   one.points[2].cost.run_seconds = 0.8;
   EXPECT_EQ(faster_and_better(one), (std::vector<const Measured*>{&one.points[2], &one.points[1]}));

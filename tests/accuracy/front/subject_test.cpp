@@ -1,4 +1,4 @@
-// What becomes of a scene's keys on other grids and with other steps.
+// A scene's keys change as they must on other grids and with other steps.
 #include "accuracy/front/subject.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Subject, GridOneIsTheScenesFile) {
   }
 }
 
-// Cells twice as large, steps twice as long: dt = 2 and dx = 2.
+// Cells are twice as large and steps twice as long: dt = 2 and dx = 2.
 TEST(Subject, HalfTheGrid) {
   const Setting half{.grid = 0.5};
   const auto near = [](double found, double wanted) { EXPECT_NEAR(found, wanted, 1 + wanted / 1000); };
@@ -102,7 +102,7 @@ TEST(Subject, BodiesScaleWithTheGrid) {
   }
 }
 
-// Half a step: half of the heat, half of what falls and spreads, and twice the steps.
+// Half a step has half of the heat, half of what falls and spreads, and twice the steps.
 TEST(Subject, HalfAStep) {
   const Subject& bunny = named("bunny");
   const rule::Parameters whole = load(bunny, bunny.sets({})).parameters,
@@ -115,7 +115,7 @@ TEST(Subject, HalfAStep) {
   EXPECT_EQ(bunny.steps_to({.step = 0.5}, 2), 2 * bunny.steps_to({}, 2));
 }
 
-// With n times the conductors each must conduct less: the sum of 2 x weight x (distance along an axis)^2 over
+// With n times the conductors each must conduct less. The sum of 2 x weight x (distance along an axis)^2 over
 // all pairs is the diffusivity. Faces count 1, the 4 edges that move along an axis 1 each, the 4 corners too.
 TEST(Subject, NeighboursKeepTheDiffusivity) {
   const Subject& goblet = named("goblet");

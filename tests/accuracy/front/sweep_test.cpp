@@ -1,4 +1,4 @@
-// The quick sweep of a scene, beside runs that the test makes itself.
+// The quick sweep of a scene is held against runs that the test makes itself.
 #include "accuracy/front/sweep.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Sweep, ErrorsOfAnotherSetting) {
 }
 
 // The twin in the engine's format is the engine, so it is as wrong. Double has no error of arithmetic, and
-// the reference's own setting none of the model.
+// the reference's own setting has none of the model.
 TEST(Sweep, PointsThatMustAgree) {
   const Measured &usual = point("the usual setting"), &twin = point("u16 dithered"), &exact = point("double");
   EXPECT_FALSE(usual.twin);
@@ -126,7 +126,7 @@ TEST(Sweep, EachPointHasItsCosts) {
   EXPECT_GT(quick().seed_error, 0);
 }
 
-// What is laid beside each other is on one grid. The full set is as large as it says.
+// Choices that are compared are on one grid. The full set is as large as it says.
 TEST(Choices, AreOnOneGridAndMany) {
   std::size_t points = 0;
   std::set<Axis> axes;
@@ -152,7 +152,7 @@ TEST(Choices, AreOnOneGridAndMany) {
   EXPECT_GE(axes.size(), 5u + 2);  // the usual one and several at once are no axes
 }
 
-// One axis at a time: a choice departs from the usual setting in nothing else.
+// A choice changes one axis at a time: it departs from the usual setting in nothing else.
 TEST(Choices, DepartAlongTheirAxisOnly) {
   for (const Choice& choice : choices(bunny(), Extent::full)) {
     Setting back = choice.setting;

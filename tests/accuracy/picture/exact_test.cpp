@@ -1,5 +1,5 @@
-// The picture in double against truths by hand: a plane, a ball, a slope, colours by formula; and against a
-// dense march.
+// The picture in double is held against truths by hand: a plane, a ball, a slope, colours by formula. It is
+// also held against a dense march.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,8 @@ void expect_near(Exact a, Exact b, double most) {
   EXPECT_NEAR(a.z, b.z, most);
 }
 
-// Solid below y = 9. Levels next to that plane are the same with opposite signs, so it is the surface.
+// Matter is solid below y = 9. Levels next to that plane are the same with opposite signs, so it is the
+// surface.
 state::Volume half_full(state::Grid grid) {
   state::Volume volume(grid);
   for (int z = 0; z < grid.z; ++z)
@@ -70,7 +71,7 @@ TEST(Exact, ClearMatterIsRefused) {
 }
 
 TEST(Cubic, FirstReachedByHand) {
-  // -(t - 1/2)^2 + e, whose coefficients are -1/4, 1/12, 1/12, -1/4, all plus e.
+  // The parabola is -(t - 1/2)^2 + e, whose coefficients are -1/4, 1/12, 1/12, -1/4, all plus e.
   const auto parabola = [](double e) {
     return accuracy::Cubic{-0.25 + e, 1.0 / 12 + e, 1.0 / 12 + e, -0.25 + e};
   };
@@ -101,7 +102,7 @@ TEST(ExactPicture, APlaneOfMatter) {
   EXPECT_NEAR(picture.matter(4, 4).depth, 15.5 * std::sin(slope) + 16.5 * std::cos(slope), 1e-6);
 }
 
-// Light from straight above. Above the plane all of it arrives, so lamp and sky add up: no mirror, no
+// Light comes from straight above. Above the plane all of it arrives, so lamp and sky add up: no mirror, no
 // highlight.
 TEST(ExactPicture, ColoursByFormula) {
   scene::Light light;
@@ -111,9 +112,10 @@ TEST(ExactPicture, ColoursByFormula) {
   look.solid = {0.5, 0.25, 0.125};
   const World world(half_full({32, 24, 32}), look, light);
   const Exact color = world.exact.shade.matter_color({16, 9, 16}, {0, 1, 0}, {0, 1, 0}, {});
-  // lamp 1.06 x 1.2 x 0.5, sky 0.94 x 0.5 for red; 1 and 1; 0.92 and 1.08.
+  // Red has lamp 1.06 x 1.2 x 0.5 and sky 0.94 x 0.5. Green has 1 and 1, blue has 0.92 and 1.08.
   expect_near(color, {0.5 * (0.636 + 0.47), 0.25 * (0.6 + 0.5), 0.125 * (0.552 + 0.54)}, 2e-3);
-  // Lit at 60 degrees, with nothing around: (1/2 + 0.15) / 1.15 of the lamp, 3/4 of the way to the sky.
+  // Lit at 60 degrees, with nothing around, it has (1/2 + 0.15) / 1.15 of the lamp, 3/4 of the way to the
+  // sky.
   const Exact tilted{std::sqrt(0.75), 0.5, 0};
   look.ground = {0, 0, 0};
   const World empty(state::Volume({32, 24, 32}), look, light);
@@ -180,7 +182,7 @@ TEST(ExactPicture, TheNormalIsThatOfAveragedLevels) {
   }
 }
 
-// Heights 4 + x / 4, which the filters leave as they are away from the sides.
+// The heights are 4 + x / 4, which the filters leave as they are away from the sides.
 TEST(ExactPicture, AGroundWithASlope) {
   const state::Grid grid{32, 24, 32};
   scene::Terrain terrain = test::floor_terrain(grid);
@@ -205,8 +207,8 @@ TEST(ExactPicture, AGroundWithASlope) {
   EXPECT_LT(ground.first_crossing({{-3, 12, 16}, {1, 0.25, 0}}).place, 0);
 }
 
-// Plain trilinear levels every 1/64 cell: no ray meets matter before the exact one says so, and none that
-// says so is empty.
+// The march takes plain trilinear levels every 1/64 cell. No ray meets matter before the exact one says so,
+// and none that says so is empty.
 TEST(ExactPicture, MeetsWhatADenseMarchMeets) {
   const state::Grid grid{40, 36, 44};
   const World world(test::ball_and_puddle(grid), {}, {}, test::floor_terrain(grid));

@@ -1,5 +1,5 @@
-// For house.avx512, in place of kernel/engine/cpu/instruction_set_table.h: AVX-512, emulated, and
-// nothing else.
+// The header takes the place of kernel/engine/cpu/instruction_set_table.h for house.avx512. It has AVX-512,
+// emulated, and nothing else.
 #pragma once
 
 #include <array>
