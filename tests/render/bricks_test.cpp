@@ -114,8 +114,7 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
   const auto corner = [](int block) {
     return (std::int64_t{4 * block} - 2) * (1 << 20) + (1 << 19) - (1 << 11);
   };
-  // The occupied box goes no further than the samples' box: half a cell around the grid, less the rounding of
-  // weights.
+  // It goes no further than the samples' box: half a cell around the grid, less the rounding of weights.
   const std::int64_t least = -(1 << 19) - (1 << 11);
   const std::int64_t most = bricks.cells().y * (1 << 20) + (1 << 19) - (1 << 11);
   EXPECT_EQ(bricks.occupied().low.x, std::max(corner(low.x), least));

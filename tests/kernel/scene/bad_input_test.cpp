@@ -103,7 +103,7 @@ const std::vector<Case>& cases() {
        "scene.toml:12:9: error: vent.0.until = 5 must be after from = 5"},
       {kBox + "[[drain]]\nat = [0, 0, 0]\nradius = 1\nrate = 2\n",
        "scene.toml:10:8: error: drain.0.rate = 2 exceeds 1, a full cell per cell and step"},
-      // The flow is wrong.
+      // Keys for flow are wrong.
       {kBox + "[flow]\nlaw = \"honey\"\n",
        "scene.toml:8:7: error: flow.law = \"honey\" is not one of paper, viscous"},
       {kBox + "[flow]\nlaw = \"paper\"\n[flow.viscous]\nkappa = 1\n",
@@ -158,7 +158,7 @@ const std::vector<Case>& cases() {
        "scene.toml:5:8: error: cannot read"},
       {kBox + "[start]\nfields = \"none\"\n",
        "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
-      // The drawing is wrong.
+      // Keys for drawing are wrong.
       {kBox + "[look]\nsolid = \"#5a2d0\"\n",
        "scene.toml:8:9: error: look.solid = \"#5a2d0\": want \"#rrggbb\", or [r, g, b] from 0 to 1"},
       {kBox + "[look]\nliquid = \"#5a2g00\"\n",

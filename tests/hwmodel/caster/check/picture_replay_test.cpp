@@ -103,8 +103,8 @@ TEST(Replay, AFaultOfEveryPixelFailsAlone) {
   EXPECT_NE(text.find("behind stage press"), std::string::npos) << text;
 }
 
-// A fault that shows only beside other pixels is right alone. If the fault strikes tiles, a whole tile is
-// drawn.
+// If a fault shows only beside other pixels, a pixel that is drawn alone is right. For a fault of tiles, a
+// whole tile is drawn.
 TEST(Replay, AFaultBetweenPixelsIsRightAlone) {
   const test::HostilePicture picture = block(24);
   for (const Fault fault : {Fault::channel_lost, Fault::channel_twice, Fault::dealer_twice}) {

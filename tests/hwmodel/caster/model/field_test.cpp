@@ -223,7 +223,7 @@ TEST(RaycastField, TheWorkedRaysCrossing) {
   const Crossing crossing = crossing_of(bracket, 3);
   EXPECT_EQ(crossing.position.z, 67108864);
   EXPECT_EQ(crossing.part, 5 * 256 + 256);
-  // Between -100 and 301: f = 25600 / 401 = 63, and (4096 x 63) >> 8 = 1008 of the way.
+  // Between -100 and 301, f = 25600 / 401 = 63, and (4096 x 63) >> 8 = 1008 of the way.
   const Crossing other = crossing_of({at(0), at(-4096), -100, 301, 2}, 9);
   EXPECT_EQ(other.position.z, -1008);
   EXPECT_EQ(other.part, 512 + 63);

@@ -85,14 +85,14 @@ TEST(Tiles, TheHaloIsWhatTheStagesReach) {
   EXPECT_EQ(shape.halo, 5) << "2 steps of 5 cells, in blocks of 2";
   EXPECT_EQ(shape.tiles(), 10) << "one block each between two cuts, six at the ends: 6 + 8 x 1 + 6";
   EXPECT_EQ(recomputed_cells(shape), (10 * 22 - 40) * 4 * 4);
-  c.tile = 24;  // 7 + 2 x 3 + 7: four tiles; the same number would do with tiles of 24
+  c.tile = 24;  // 7 + 3 x 2 + 7 blocks: five tiles
   EXPECT_EQ(design_of(start.parameters, start.volume.grid, c).shape.tiles(), 5);
   c.tile = 20;
   EXPECT_NE(tile_problem(start.parameters, start.volume.grid, c), "");
   EXPECT_THROW(design_of(start.parameters, start.volume.grid, c), std::invalid_argument);
 }
 
-// Runs a part of 200 hostile worlds. The quick test takes some, and the slow one all.
+// Runs a part of 200 hostile worlds. The quick test takes 40, and the slow one the others.
 void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
   int cut = 0, most = 0;
   for (std::uint64_t seed = begin; seed < end; ++seed) {
