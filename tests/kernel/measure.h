@@ -1,4 +1,4 @@
-// Numbers that a picture would show: columns, roughness, spreading, motion.
+// These functions measure what a picture would show: columns, roughness, spreading, motion.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace voxmelt::worlds {
 
-// Liquid per column, in cells, [z][x].
+// Holds the liquid per column, in cells, [z][x].
 struct Heights {
   int nx, nz;
   std::vector<double> h;
@@ -28,7 +28,8 @@ inline Heights heights(const Volume& v) {
   return result;
 }
 
-// Checkerboard number: the mean of |height - mean of its four neighbours|, in cells, off the border.
+// Returns the checkerboard number: the mean of |height - mean of its four neighbours|, in cells, off the
+// border.
 inline double roughness(const Heights& h) {
   double sum = 0;
   for (int z = 1; z + 1 < h.nz; ++z)
@@ -73,7 +74,7 @@ inline int dust(const Volume& v, std::int32_t below) {
   return count_liquid(v, [&](std::int32_t a, int, int, int) { return a < below; });
 }
 
-// Steps of the next n in which any amount changed.
+// Counts those of the next n steps in which any amount changed.
 inline int moving_steps(run::Simulation& s, int n) {
   int moving = 0;
   for (int i = 0; i < n; ++i) {
@@ -84,15 +85,14 @@ inline int moving_steps(run::Simulation& s, int n) {
   return moving;
 }
 
-// A ball of liquid that lies on the floor in the middle of the grid. Under the paper's law it has
-// full energy.
+// Puts a ball of liquid on the floor in the middle of the grid. Under the paper's law it has full energy.
 inline void put_ball(Volume& v, double radius, bool energetic, int floor = 0) {
   const double cx = (v.grid.x - 1) / 2.0, cy = floor + radius - 0.5, cz = (v.grid.z - 1) / 2.0;
   for_each(whole(v.grid), [&](int x, int y, int z) {
     if (std::hypot(x - cx, y - cy, z - cz) <= radius) put(v, x, y, z, kOne, energetic ? kOne : 0);
   });
 }
-// A flat round puddle of some depth in cells.
+// Puts a flat round puddle of some depth in cells.
 inline void put_disc(Volume& v, double radius, double depth, std::int32_t energy = 0) {
   for_each(whole(v.grid), [&](int x, int y, int z) {
     if (std::hypot(x - (v.grid.x - 1) / 2.0, z - (v.grid.z - 1) / 2.0) > radius) return;
@@ -101,8 +101,8 @@ inline void put_disc(Volume& v, double radius, double depth, std::int32_t energy
   });
 }
 
-// Two shafts of 3 x 3, joined by a tunnel 3 high: one filled 21 high, the other 3. At one level, both would
-// be 12 high.
+// Makes two shafts of 3 x 3, joined by a tunnel 3 high. One is filled 21 high, the other 3. At one level,
+// both would be 12 high.
 inline Volume u_tube() {
   Volume v(Grid{11, 30, 5});
   fill_inert(v, whole(v.grid));

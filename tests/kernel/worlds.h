@@ -1,4 +1,4 @@
-// Small volumes, the parameters they are run with, and what every state must satisfy.
+// Makes small volumes and the parameters that they run with, and checks the invariants of every state.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ using rule::Parameters;
 using state::Grid;
 using state::Volume;
 
-// The same numbers on every machine (the standard library's distributions are not).
+// Draws the same numbers on every machine (the standard library's distributions do not).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -55,7 +55,7 @@ inline void put_inert(Volume& v, int x, int y, int z, std::int32_t bed = rule::k
   v.inert.set(x, y, z, true);
 }
 
-// Cells begin <= c < end.
+// Holds the cells begin <= c < end.
 struct Box {
   int x0, y0, z0, x1, y1, z1;
 };
@@ -74,7 +74,7 @@ inline void fill_inert(Volume& v, const Box& b) {
   for_each(b, [&](int x, int y, int z) { put_inert(v, x, y, z); });
 }
 
-// What the showcase scenes of the paper's law use.
+// The showcase scenes of the paper's law use these parameters.
 inline Parameters paper_showcase() {
   Parameters p;
   p.flow.law = rule::Law::paper;
@@ -85,7 +85,7 @@ inline Parameters paper_showcase() {
   return p;
 }
 
-// kappa = g dt / nu in cells; yield in cells^2.
+// `kappa` is g dt / nu in cells, and `yield` is in cells^2.
 inline Parameters viscous(double kappa, double yield = 0, int stiffness = 8) {
   Parameters p;
   p.flow.law = rule::Law::viscous;
@@ -111,7 +111,7 @@ void step_by_phase(run::Simulation& simulation, After&& after) {
   simulation.end_step();
 }
 
-// The invariants of docs/automaton.md, section 1; empty when all hold.
+// Checks the invariants of docs/automaton.md, section 1. Returns nothing if all hold.
 inline std::string broken_invariant(const Volume& v, const Parameters& p) {
   std::string broken;
   for_each(whole(v.grid), [&](int x, int y, int z) {

@@ -1,4 +1,4 @@
-// The bricks of every instruction set, told and untold, against the plain levels and the plain matter of
+// The bricks of every instruction set, told and untold, agree with the plain levels and the plain matter of
 // cells.
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ void for_all(const Grid& grid, const Visit& visit) {
       for (int x = 0; x < grid.x; ++x) visit(Grid{x, y, z});
 }
 
-// Is there any intensity that the places of a brick depend on?
+// Tells whether the places of a brick depend on any intensity.
 bool anything(const render::DensityField& field, const Grid& brick) {
   bool any = false;
   for_all({13, 13, 13}, [&](const Grid& i) {
@@ -77,7 +77,7 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
     });
   });
 
-  // Blocks: what is occupied, and slopes.
+  // The blocks must have the right occupancy and slopes.
   std::vector<Grid> occupied;
   Grid low = bricks.blocks(), high{0, 0, 0};
   for_all(bricks.blocks(), [&](const Grid& block) {
@@ -114,7 +114,7 @@ void expect_plain(const FieldBricks& bricks, const render::DensityField& field, 
   const auto corner = [](int block) {
     return (std::int64_t{4 * block} - 2) * (1 << 20) + (1 << 19) - (1 << 11);
   };
-  // No further than the samples' box: half a cell around the grid, less the rounding of weights.
+  // It goes no further than the samples' box: half a cell around the grid, less the rounding of weights.
   const std::int64_t least = -(1 << 19) - (1 << 11);
   const std::int64_t most = bricks.cells().y * (1 << 20) + (1 << 19) - (1 << 11);
   EXPECT_EQ(bricks.occupied().low.x, std::max(corner(low.x), least));
@@ -176,7 +176,7 @@ TEST(Bricks, ToldAndUntold) {
     }
 }
 
-// Rows longer than a word of 64 blocks.
+// Rows are longer than a word of 64 blocks.
 TEST(Bricks, DistancesOfLongRows) {
   Random random(5);
   for (const Grid& blocks : {Grid{1, 1, 1}, {64, 2, 3}, {65, 1, 2}, {130, 3, 1}, {8, 40, 8}}) {

@@ -1,4 +1,5 @@
-// Rays through clear matter: ways through balls and slabs against analytic ones, and what they add up to.
+// Rays pass through clear matter. Their ways through balls and slabs, and the sums of these, agree with
+// analytic ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,14 +33,14 @@ scene::Look dull_look(double half) {
   return look;
 }
 
-// What rays meet in levels, in the open.
+// Holds levels in the open, and tells what rays meet in them.
 class Fog {
  public:
   explicit Fog(const CubeOfLevels& levels, const scene::Look& look = dull_look(8))
       : levels_(levels),
         paint_(picture::paint_of(render::look_in_integers(look), render::lamp_in_integers({}))) {}
 
-  // In cells; the step is 2^-spacing along the largest component.
+  // The coordinates are in cells, and the step is 2^-spacing along the largest component.
   picture::Ray ray(double x, double y, double z, double dx, double dy, double dz, int spacing = 2) const {
     const auto fixed = [](double a) { return std::llround(std::ldexp(a, 20)); };
     return {{fixed(x), fixed(y), fixed(z)},
@@ -58,7 +59,7 @@ class Fog {
     const bool arrived = along.follow(picture::first_crossing(levels_, levels_.cells(), ray));
     return {arrived, along.passed(), along.sum({})};
   }
-  // How long the way in matter is by what passes, in cells.
+  // Returns the length of the way in matter, in cells, by the light that passes.
   double way(const Seen& seen, double half = 8) const { return -half * std::log2(seen.passed[1] / 32768.0); }
   void put_obstacle_from(std::int64_t x) { inside_.obstacle_from = x; }
   const picture::Paint& paint() const { return paint_; }
@@ -80,7 +81,7 @@ class Fog {
   Color background_{};
 };
 
-// Matter from cell `low` to cell `high` - 1 along x: its surfaces are at low and high.
+// Makes matter from cell `low` to cell `high` - 1 along x. Its surfaces are at low and high.
 CubeOfLevels slab(int side, int low, int high) {
   return {side, [=](int x, int, int) { return x >= low && x < high ? 32640 : -32640; }};
 }
@@ -90,7 +91,7 @@ TEST(Clear, TheWayThroughABallIsItsChord) {
   const Fog fog(ball);
   for (const double aside : {0.0, 3.0, 6.5, 9.0})
     for (const double lean : {0.0, 0.3, -0.9}) {
-      // A line that passes the middle of the ball at the distance `aside`.
+      // The line passes the middle of the ball at the distance `aside`.
       const double length = std::hypot(1, lean), x = -1, to = 16 - x;
       const double y = 16 - to * lean + aside * length;
       double fast = 0;
@@ -110,7 +111,7 @@ TEST(Clear, TheWayThroughASlabLengthensWithTheSlant) {
     EXPECT_NEAR(fog.way(fog.seen(fog.ray(2, 5, 20, 1, slope, 0))), 12 * std::hypot(1, slope), 0.03) << slope;
 }
 
-// Two slabs of 5 and 9 cells.
+// The two slabs have 5 and 9 cells.
 TEST(Clear, WaysAddUpBehindAGap) {
   const CubeOfLevels levels(
       40, [](int x, int, int) { return (x >= 5 && x < 10) || (x >= 20 && x < 29) ? 32640 : -32640; });
@@ -118,7 +119,7 @@ TEST(Clear, WaysAddUpBehindAGap) {
   EXPECT_NEAR(fog.way(fog.seen(fog.ray(1, 20, 20, 1, 0, 0))), 14, 0.03);
 }
 
-// Frost dims at both surfaces: (1 - 1/4)^2, and half of it is lost on the way.
+// Frost dims at both surfaces, (1 - 1/4)^2, and half of the light is lost on the way.
 TEST(Clear, FrostDimsAtEachSurface) {
   const CubeOfLevels levels = slab(40, 10, 18);
   scene::Look look = dull_look(8);
@@ -127,7 +128,7 @@ TEST(Clear, FrostDimsAtEachSurface) {
   EXPECT_NEAR(fog.seen(fog.ray(2, 20, 20, 1, 0, 0)).passed[0], 32768 * 9 / 32.0, 60);
 }
 
-// What is scattered and what passes add up to all, whatever the number of stretches: no rounding adds up.
+// Scattered and passed light add up to all, whatever the number of stretches, so no rounding adds up.
 TEST(Clear, NothingIsLostInManyStretches) {
   const CubeOfLevels levels = slab(256, 10, 200);
   for (const double half : {1.0, 30.0, 256.0}) {
@@ -159,7 +160,7 @@ TEST(Clear, TheGroundWithinEndsTheWay) {
     EXPECT_TRUE(seen.ground);
     EXPECT_NEAR(fog.way(seen), static_cast<double>(part) / 1024 - 8, 0.05) << part;
   }
-  // Right behind the surface, before the next sample; and before it.
+  // One ground is right behind the surface, before the next sample, and one is before the surface.
   const picture::GroundCrossing close{true, 32 * 256 + 200, {}, picture::Face::top},
       before{true, 31 * 256, {}, picture::Face::top};
   const Fog::Seen within = fog.seen(fog.ray(1.95, 20, 20, 1, 0, 0), 2, close);
@@ -196,7 +197,7 @@ TEST(Clear, FrostAloneChangesNoOpaquePicture) {
   EXPECT_FALSE(before == drawn(volume, look));
 }
 
-// The lamp's light below a ball: next to none behind an opaque one, and more the clearer it is.
+// The lamp's light below a ball is next to none behind an opaque one, and more the clearer the ball is.
 TEST(Clear, ShadowsOfClearMatterAreLighter) {
   const state::Volume volume = test::ball_and_puddle(kGrid);
   std::int32_t before = -1;

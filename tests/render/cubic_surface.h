@@ -1,4 +1,4 @@
-// The surface in double: a cubic B-spline through the filtered intensities, met by a dense march.
+// The surface in double is a cubic B-spline through the filtered intensities, met by a dense march.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class CubicSurface {
  public:
   explicit CubicSurface(const render::DensityField& field) : field_(field) {}
 
-  // Along a unit vector, from within `from` to `to` cells.
+  // Searches along a unit vector, from `from` to `to` cells.
   std::optional<Hit> find(Point start, Point direction, double from, double to) const {
     constexpr double kStep = 0.25;
     for (double t = from; t < to; t += kStep) {
@@ -33,13 +33,13 @@ class CubicSurface {
   }
 
  private:
-  // Weights of the four neighbours of a place t behind the second.
+  // Returns the weights of the four neighbours of a place t behind the second.
   static std::array<double, 4> weights(double t) {
     const double s = 1 - t;
     return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
             t * t * t / 6};
   }
-  // Intensity less half of a full one; air outside of the grid.
+  // Returns the intensity less half of a full one. Outside of the grid there is air.
   double value(Point p) const {
     const state::Grid& grid = field_.grid();
     if (p.x < -2 || p.y < -2 || p.z < -2 || p.x > grid.x + 2 || p.y > grid.y + 2 || p.z > grid.z + 2)

@@ -1,5 +1,5 @@
-// The colour of a flat face, seen straight from the front: of matter that a side of the grid cuts off, and of
-// matter that ends in it. Under nothing but ambient light, and without mirror and highlight, it is a product.
+// A flat face is seen straight from the front. Its matter is cut off by a side of the grid, or ends in it.
+// Under nothing but ambient light, and without mirror and highlight, its colour is a product.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ constexpr std::array<Side, 6> kSides{{{"-x", 0, false, -90, 0},
 
 enum class Kind { solid, liquid, obstacle };
 
-// A block whose face is `inset` cells away from the side.
+// Makes a block whose face is `inset` cells away from the side.
 state::Volume block_at(const Side& side, int inset, Kind kind, double temperature = 0) {
   state::Volume volume(kGrid);
   for (int z = 0; z < kCells; ++z)
@@ -65,7 +65,7 @@ state::Volume block_at(const Side& side, int inset, Kind kind, double temperatur
   return volume;
 }
 
-// Four cells in the middle of the block's face.
+// Makes a camera that sees four cells in the middle of the block's face.
 scene::Camera camera_before(const Side& side, int inset) {
   scene::Camera camera;
   camera.target = {kCells / 2.0, kCells / 2.0, kCells / 2.0};
@@ -99,7 +99,7 @@ Light arriving_at(const Side& side) {
   return light;
 }
 
-// sRGB, for light that is not pressed.
+// Returns the sRGB byte for light that is not pressed.
 int byte_of(double light) {
   EXPECT_LT(light, 0.7);
   return static_cast<int>(std::lround(255 * (1.055 * std::pow(light, 1 / 2.4) - 0.055)));
@@ -137,8 +137,8 @@ void expect_face(const Side& side, int inset, const state::Volume& volume, const
 
 Light product(const Light& a, const Light& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 
-// At a side of the grid and inside, with the usual filter and without any: there the cells of air in front of
-// the face say nothing of their own.
+// Takes faces at a side of the grid and inside, with the usual filter and without any. Without a filter, the
+// cells of air in front of the face say nothing of their own.
 template <class Expect>
 void for_each_face(const Expect& expect) {
   for (const Side& side : kSides)
@@ -166,7 +166,7 @@ TEST(Face, OfSolidIsSolid) {
   });
 }
 
-// The ground's colour, 12 % of the way to white; it mirrors a little, below a hundredth.
+// The ground's colour goes 12 % of the way to white. It mirrors a little, below a hundredth.
 TEST(Face, OfAnObstacleIsAnObstacle) {
   Light own{};
   for (std::size_t c = 0; c < 3; ++c) own[c] = 0.88 * kGround[c] + 0.12;
@@ -175,7 +175,7 @@ TEST(Face, OfAnObstacleIsAnObstacle) {
   });
 }
 
-// A crust in ambient light, and the glow itself: h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2. The heat
+// A crust in ambient light adds to the glow itself: h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2. The heat
 // counts in 256 steps, and one step is two bytes of red.
 TEST(Face, OfLavaGlows) {
   constexpr double kHeat = 0.4;

@@ -1,4 +1,4 @@
-// The field that is drawn: filter, column heights, ground below films, updates brick by brick.
+// The field that is drawn has a filter, column heights and ground below films, and is updated brick by brick.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,8 +55,8 @@ TEST(LowPass, KeepsSumsAwayFromTheBorder) {
   const auto sum = [](const render::Values<std::uint16_t>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
-  // Every axis of a pass rounds quarters to nearest, halves upwards: an eighth upwards in the mean. Beyond
-  // that the errors add up like a random walk.
+  // Every axis of a pass rounds quarters to nearest and halves upwards, which is an eighth upwards in the
+  // mean. Beyond that the errors add up like a random walk.
   double roundings = 0;
   for (int passes = 1; passes <= render::kMaxPasses; ++passes) {
     roundings += 3.0 * (10 + 2 * passes) * (8 + 2 * passes) * (9 + 2 * passes);
@@ -103,7 +103,7 @@ TEST(CellFields, GroundIsFilledOnlyNearMatter) {
   EXPECT_EQ(fields.liquid[volume.grid.index(4, 1, 4)], 0);
 }
 
-// The worked column of docs/picture/field.md, section 10: every number there.
+// The numbers are all those of the worked column of docs/picture/field.md, section 10.
 TEST(DensityField, WorkedColumn) {
   const state::Grid grid{20, 12, 20};
   state::Volume volume = test::floor_volume(grid);
@@ -133,7 +133,7 @@ TEST(DensityField, WorkedColumn) {
   EXPECT_EQ(up(field.intensity()), (Up{64770, 61200, 50490, 32640, 14790, 4080, 510}));
 }
 
-// The surface above a wide flat column lies where the liquid does, whatever the last cell holds.
+// The surface above a wide flat column lies at the liquid's height, whatever the last cell holds.
 TEST(DensityField, ReconstructsColumnHeights) {
   const state::Grid grid{24, 24, 24};
   for (int passes = 0; passes <= render::kMaxPasses; ++passes)
@@ -150,7 +150,7 @@ TEST(DensityField, ReconstructsColumnHeights) {
     }
 }
 
-// The voxelised bed has terraces; its stored offset takes them out of the surface of what lies on it.
+// The voxelised bed has terraces. Its stored offset takes them out of the surface of the liquid on it.
 TEST(DensityField, FollowsASlopingBed) {
   const state::Grid grid{48, 32, 24};
   state::Volume volume(grid);

@@ -1,4 +1,4 @@
-// A folder with a shell script for `ffmpeg`, the only program on the PATH while it lives.
+// Makes a folder with a shell script for `ffmpeg`, the only program on the PATH while the object lives.
 #pragma once
 
 #include <unistd.h>
@@ -16,8 +16,8 @@ namespace voxmelt {
 
 class FakeFfmpeg {
  public:
-  // `script` sees the film's file as $film. The question whether a codec works is answered with yes; for
-  // `codec` it is no. An empty script: there is no ffmpeg.
+  // `script` sees the film's file as $film. The script says that every codec works, except `missing_codec`.
+  // If `script` is empty, there is no ffmpeg.
   explicit FakeFfmpeg(const std::string& script, const std::string& missing_codec = "none")
       : old_path_(std::getenv("PATH")), folder_(fresh_folder()) {
     std::filesystem::create_directories(folder_);
@@ -47,7 +47,7 @@ class FakeFfmpeg {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  // What `cat` makes of a frame.
+  // Returns the bytes that `cat` makes of a frame.
   static std::string raw(const render::Image& image) {
     return {reinterpret_cast<const char*>(image.pixels.data()), sizeof(render::Rgb) * image.pixels.size()};
   }

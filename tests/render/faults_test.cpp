@@ -1,4 +1,4 @@
-// Faults that pictures once had, and what holds them:
+// Pictures once had these faults, and these tests hold them off:
 //
 // 1  holes in terrain, combs   GroundMap.TheVolcanoHasNoHole, LeavingOutChangesNothing (ground_map_test.cpp);
 //                              Ground.IsThatOfADenseMarchInDouble, of 200 views (rule/ground_test.cpp)
@@ -8,7 +8,7 @@
 // 4  teeth of rims, bands      Rim.OfARoundPuddle, Rim.OfATongueOnASlope (rims_test.cpp);
 //                              Smooth.TerracesOfAPuddleDoNotShow (smooth_test.cpp)
 // 5  flicker                   Fault.SmallChangesMovePixelsLittle
-// 6  a camera inside           Fault.ACameraInsideIsKnown; that it warns: tests/app/frames_test.py
+// 6  a camera inside           Fault.ACameraInsideIsKnown; the warning: tests/app/frames_test.py
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Image drawn(const state::Volume& volume, const scene::Terrain& terrain, const sc
   return picture.draw(camera, render::Setting::fast, 1);
 }
 
-// From below, the slab hides a puddle, the puddle's shadow and what is buried: its underside has one colour.
+// From below, the slab hides a puddle, its shadow and everything buried. Its underside has one colour.
 TEST(Fault, FromBelowTheSlabHidesEverything) {
   const state::Grid grid{48, 40, 48};
   state::Volume volume = test::ball_and_puddle(grid);
@@ -96,7 +96,7 @@ TEST(Fault, ShadowOfARidgeIsMonotone) {
       camera.width = 400;
       camera.height = 100;
       const Image image = drawn(volume, terrain, camera, light);
-      const double pixels = 50 / (100 * std::tan(15 * std::numbers::pi / 180));  // to a cell
+      const double pixels = 50 / (100 * std::tan(15 * std::numbers::pi / 180));  // pixels to a cell
       const auto column = [&](double x) { return static_cast<int>(std::lround(200 + (x - 48) * pixels)); };
       int brightest = 0, worst = 0;
       const int first = column(kRidge + 8), last = column(92);
@@ -110,7 +110,7 @@ TEST(Fault, ShadowOfARidgeIsMonotone) {
     }
 }
 
-// The largest change of a channel, and how far apart the channels of the picture are.
+// Holds the largest change of a channel, and the difference between the picture's lowest and highest channel.
 struct Change {
   int most = 0, contrast = 0;
 };
@@ -128,7 +128,7 @@ Change change_of(const Image& before, const Image& after) {
 }
 
 // Every amount moves by up to 1/512 of a cell, there and back. Along a silhouette two samples of a pixel may
-// then come to lie on its other side, but not more: that is a quarter of the contrast in the normal picture.
+// then come to lie on its other side, but not more. That is a quarter of the contrast in the normal picture.
 // In the best one it is 8 levels, as the look is dull: all levels are within 128.
 TEST(Fault, SmallChangesMovePixelsLittle) {
   const state::Grid grid{48, 40, 48};

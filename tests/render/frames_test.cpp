@@ -1,4 +1,5 @@
-// The frames of a run: the same files for any number of threads, the first error, what waits.
+// The frames of a run give the same files for any number of threads, stop at the first error, and do not pile
+// up.
 #include "render/frames/frames.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ class FrameFiles : public testing::Test {
     fs::create_directories(folder_);
     return folder_;
   }
-  // All files by name.
+  // Returns all files by name.
   std::map<std::string, std::string> made(std::size_t planned, std::size_t count, int threads) {
     {
       Frames frames(fresh(), {planned, kBytes, threads});
@@ -103,7 +104,7 @@ TEST_F(FrameFiles, OneThreadDoesAllInTurn) {
   EXPECT_EQ(threads(), before);
 }
 
-// Worked by hand: k (n - 1) / 11, rounded down.
+// The frames, by hand, are k (n - 1) / 11, rounded down.
 TEST(SheetFrames, AreChosenEvenly) {
   using List = std::vector<std::size_t>;
   EXPECT_EQ(render::shown_frames(0), List{});
@@ -113,7 +114,7 @@ TEST(SheetFrames, AreChosenEvenly) {
   EXPECT_EQ(render::shown_frames(51), (List{0, 4, 9, 13, 18, 22, 27, 31, 36, 40, 45, 50}));
 }
 
-// Nothing is read where the plan was right. Means of four pixels of 10, 20, 30 and 41 are 25.
+// If the plan was right, nothing is read. The mean of four pixels of 10, 20, 30 and 41 is 25.
 TEST(SheetFrames, ShowHalvesOfWhatWasOffered) {
   Image image(2, 2);
   image.pixels = {{10, 0, 0}, {20, 0, 0}, {30, 0, 0}, {41, 3, 2}};
@@ -129,7 +130,7 @@ TEST(SheetFrames, ShowHalvesOfWhatWasOffered) {
   EXPECT_ANY_THROW(frames.sheet({"", "", ""}, none));
 }
 
-// A folder stands where frame 5 belongs.
+// A folder stands in the place of frame 5.
 TEST_F(FrameFiles, TheFirstErrorIsThrownAndSaysWhere) {
   for (const int threads : {1, 2, 8}) {
     fs::create_directories(fresh() / "frames/frame_00005.png");
@@ -154,7 +155,7 @@ TEST_F(FrameFiles, TheFirstErrorIsThrownAndSaysWhere) {
   EXPECT_FALSE(fs::exists(folder_ / "film.mp4.part"));
 }
 
-// ffmpeg waits until it is told to read. Frames come to a stop: those that wait, and what a socket holds.
+// ffmpeg waits until it is told to read. Then frames come to a stop: some wait, and a socket holds some.
 TEST_F(FrameFiles, ASlowFilmHoldsTheFramesUp) {
   const fs::path go = ffmpeg_.folder() / "go";
   const FakeFfmpeg slow("while [ ! -e " + go.string() + " ]; do sleep 0.02; done; cat > \"$film\"");
@@ -172,11 +173,12 @@ TEST_F(FrameFiles, ASlowFilmHoldsTheFramesUp) {
   EXPECT_EQ(fs::file_size(folder_ / "film.mp4"), 200 * kBytes);
 }
 
-// Large pictures do not wait in numbers: no film reader, room for one.
+// Large pictures do not wait in numbers: no film reads them, and there is room for one.
 TEST_F(FrameFiles, LargePicturesDoNotPileUp) {
   const fs::path go = ffmpeg_.folder() / "go";
   const FakeFfmpeg slow("while [ ! -e " + go.string() + " ]; do sleep 0.02; done; cat > \"$film\"");
-  const std::size_t large = std::size_t{80} << 20;  // as said to the plan; the test's own are small
+  // The plan is told this size, but the test's own frames are small.
+  const std::size_t large = std::size_t{80} << 20;
   Frames frames(fresh(), {20, large, 8});
   std::atomic<std::size_t> added = 0;
   std::jthread adder([&] {

@@ -1,5 +1,6 @@
-// Approved digests of pictures (picture_digests.txt): scenes in mid-melt from all around, in every setting,
-// by every instruction set on 1 to 8 threads. The reference draws a sample of them, and the judge some.
+// The digests of pictures are approved (picture_digests.txt). The pictures show scenes in mid-melt from all
+// around, in every setting, by every instruction set on 1 to 8 threads. The reference draws a sample of them,
+// and the judge some.
 //
 // VOXMELT_APPROVE=1 writes the digests of this program, unless something disagrees. Both programs have their
 // own: the quick one 64 x 64 pixels, the slow one 256 x 256.
@@ -53,7 +54,7 @@ Digests approved_digests() {
   return digests;
 }
 
-// FNV-1a.
+// Computes the FNV-1a hash of the pixels.
 std::string digest_of(const Image& image) {
   std::uint64_t hash = 0xCBF29CE484222325;
   for (const render::Rgb& pixel : image.pixels)
@@ -63,7 +64,7 @@ std::string digest_of(const Image& image) {
   return text.str();
 }
 
-// From all sides, from above and below, and every fourth one from near or within.
+// The views are from all sides, from above and below, and every fourth one is from near or within.
 scene::Camera view_of(const scene::Scene& scene, int view) {
   constexpr std::array kElevations{28.0, 5.0, 60.0, -30.0, 88.0};
   scene::Camera camera = scene.camera;
@@ -81,7 +82,7 @@ struct Shown {
   const render::PictureScene& reference;
 };
 
-// The picture that all instruction sets draw; the number of threads goes round with the views.
+// Draws the picture with all instruction sets. The number of threads goes round with the views.
 Image drawn(const Shown& shown, const scene::Camera& camera, Setting setting, int view) {
   Image first;
   int threads = view;

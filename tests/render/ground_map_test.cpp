@@ -1,4 +1,5 @@
-// The ground of a scene: filters by hand, samples left out, the pictures that had holes, the texture.
+// The ground of a scene is tested: filters by hand, samples left out, pictures that had holes, and the
+// texture.
 #include "render/ground/ground_map.h"
 
 #include <gtest/gtest.h>
@@ -33,16 +34,16 @@ ColumnHeights one_column(std::size_t count, std::size_t at, std::int32_t height)
   return heights;
 }
 
-// A column of 4096 in a row of seven. A pass along x: 1024, 2048, 1024; along z nothing changes. The
-// pre-filter: 43 x 1024 = 44032, and so on, each rounded.
+// A row of seven has one column of 4096. A pass along x gives 1024, 2048, 1024, and along z it changes
+// nothing. The pre-filter gives 43 x 1024 = 44032, and so on, each rounded.
 TEST(GroundMap, FiltersByHand) {
   const GroundMap map({7, 8, 1}, one_column(7, 3, 4096), 1, kColor, false);
   EXPECT_EQ(map.bare(), (ColumnHeights{0, 172, 1024, 1704, 1024, 172, 0}));
   EXPECT_EQ(map.highest(), 1704);
   const GroundMap along_z({1, 8, 7}, one_column(7, 3, 4096), 1, kColor, false);
   EXPECT_EQ(along_z.bare(), map.bare());
-  // Repeated at the ends: 3072, 1024 after the pass, 2728.. = (43 + 170) x 3072 + 43 x 1024 after the
-  // pre-filter.
+  // The ends repeat. The pass gives 3072 and 1024. The pre-filter gives 2728.. = (43 + 170) x 3072 + 43 x
+  // 1024.
   const GroundMap end({3, 8, 1}, {4096, 0, 0}, 1, kColor, false);
   EXPECT_EQ(end.bare(), (ColumnHeights{2728, 1196, 172}));
 }
@@ -71,7 +72,8 @@ TEST(GroundMap, WetColumnsAreLowered) {
   EXPECT_EQ(map.drawn(), map.bare());
 }
 
-// Rough land with needles, some of it under water, from all sides: what is left out changes nothing.
+// Rough land with needles, some of it under water, is seen from all sides. Leaving samples out changes
+// nothing.
 TEST(GroundMap, LeavingOutChangesNothing) {
   std::mt19937 random(5);
   const auto any = [&](std::int64_t low, std::int64_t high) {
@@ -128,8 +130,8 @@ struct Lava {
   }
 };
 
-// The views in which the search in floats overstepped crests: a hole through the mountain, a comb along a
-// ridge.
+// In these views the search in floats overstepped crests. They had a hole through the mountain, and a comb
+// along a ridge.
 TEST(GroundMap, TheVolcanoHasNoHole) {
   const Lava lava;
   const auto drawn = [&](std::int64_t x, std::int64_t z) {
@@ -145,7 +147,7 @@ TEST(GroundMap, TheVolcanoHasNoHole) {
     }
 }
 
-// From straight below, each ray that meets anything meets the underside, and that is plain.
+// From straight below, each ray that meets anything meets the underside, which is plain.
 TEST(GroundMap, FromBelowTheUndersideHidesAll) {
   const Lava lava;
   const picture::View view = lava.view(30, -89, 300, 64, 48);
@@ -184,7 +186,7 @@ TEST(GroundMap, TexelsAreSeenWhereTheyLie) {
   }
 }
 
-// On level rock: the relief one texel before and behind, along each axis.
+// On level rock a bump compares the relief one texel before and behind, along each axis.
 TEST(GroundMap, BumpsOfLevelRock) {
   const GroundMap map({16, 8, 16}, ColumnHeights(256, 2 * kHeight), 0, kColor, true);
   const auto relief = [](std::int64_t i, std::int64_t j) {
@@ -206,7 +208,7 @@ TEST(GroundMap, APuddleDoesNotBendTheLightBesideIt) {
   EXPECT_EQ(map.paint({true, 1, {9 * kCell, kCell, 8 * kCell}, Face::top}).normal, (Vector{0, 1 << 14, 0}));
 }
 
-// Rock is neither plain nor wild: each colour lies about the look's, and bumps are a few degrees.
+// Rock is neither plain nor wild: each colour lies near the look's, and bumps are a few degrees.
 TEST(GroundMap, TexelsAreNearTheLooksColor) {
   const Lava lava;
   double red = 0, bump = 0;
@@ -234,7 +236,7 @@ TEST(GroundMap, FloorsArePlainAndTheirSidesDarker) {
   EXPECT_EQ(painted(Face::under).color, (Vector{1270, 635, 317}));
 }
 
-// Bands of a side: the noise of quarters of a cell, moved by the bend of the column.
+// The bands of a side are the noise of quarters of a cell, moved by the bend of the column.
 TEST(GroundMap, BandsAreBent) {
   const GroundMap map({16, 8, 16}, ColumnHeights(256, 6 * kHeight), 3, {1, 1, 1}, true);
   for (const std::int64_t z : {2, 9}) {

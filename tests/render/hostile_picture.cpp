@@ -15,16 +15,16 @@ using worlds::Random;
 
 double fraction(Random& random) { return static_cast<double>(random.bits() >> 11) * 0x1p-53; }
 double between(Random& random, double low, double high) { return low + (high - low) * fraction(random); }
-// Just below half of a unit of light: the sum with 1/2 rounds to 1 in doubles.
+// This is just below half of a unit of light: the sum with 1/2 rounds to 1 in doubles.
 constexpr double kBelowHalf = 0x1.fffffffffffffp-2 * 0x1p-12;
-constexpr double kBelowHalfClear = 0x1.fffffffffffffp-2 * 0x1p-6;  // as much of a unit of `clear`
+constexpr double kBelowHalfClear = 0x1.fffffffffffffp-2 * 0x1p-6;  // the same part of a unit of `clear`
 
-// From 0 to 1, often an end.
+// Returns a number from 0 to 1, often an end.
 double edged(Random& random) {
   return random.one_in(3) ? random.any({0.0, 0.0, 1.0, 1.0, kBelowHalf}) : fraction(random);
 }
 
-// Sizes beside those of bricks, blocks and words; thin ones, and a single cell.
+// The sizes lie beside those of bricks, blocks and words. Some are thin, and some are a single cell.
 state::Grid hostile_grid(Random& random, int most) {
   const auto side = [&] {
     return random.any({1, 2, 3, 7, 8, 9, 12, 15, 16, 17, 23, 24, 25, 31, 32, 33, 64, 65});
@@ -56,7 +56,7 @@ void put(state::Volume& volume, int x, int y, int z, int kind, Random& random) {
                                         : 0);
 }
 
-// Lumps of one kind, with single cells amid them.
+// Fills in lumps of one kind, with single cells amid them.
 void fill_lumps(state::Volume& volume, Random& random) {
   const int size = random.any({1, 2, 4, 5, 8}), noise = random.any({2, 10, 1000}),
             air = random.any({1, 2, 6});
@@ -69,7 +69,7 @@ void fill_lumps(state::Volume& volume, Random& random) {
   });
 }
 
-// Ground with obstacles, films and puddles on it, and solids that hang.
+// Fills in ground with obstacles, films and puddles on it, and solids that hang.
 void fill_land(state::Volume& volume, const scene::Terrain& terrain, Random& random) {
   const int film = random.any({2, 3, 8}), rough = random.any({1, 2, 5}), walls = random.any({6, 40});
   const double slope = between(random, 0, 0.6);
@@ -141,7 +141,8 @@ scene::Look hostile_look(Random& random) {
   look.glow = random.one_in(2);
   look.glow_cold = edged(random) * 0.6;
   look.glow_hot = look.glow_cold + (random.one_in(5) ? 0x1p-16 : fraction(random) * 0.4);
-  if (random.one_in(2)) {  // clear: from a fog to a glass, and colours; no colour where it glows
+  // Clear looks go from a fog to a glass, with colours. If the look glows, they have no colour.
+  if (random.one_in(2)) {
     const bool glow = look.glow && random.one_in(4);
     look.glow = glow;
     for (double& half : look.clear)
@@ -155,7 +156,7 @@ scene::Look hostile_look(Random& random) {
   return look;
 }
 
-// Along axes, diagonals, from below; of any length.
+// The light comes along axes, along diagonals and from below. It has any length.
 scene::Light hostile_light(Random& random) {
   scene::Light light;
   const auto component = [&] {
@@ -191,7 +192,7 @@ scene::Camera hostile_camera(Random& random, const state::Volume& volume) {
   const int distance = random.below(10);
   camera.distance = distance < 4 ? 0
                     : distance == 4
-                        ? random.any({0x1p-12, 1e-4, 1e-5, 0.25, 1.0})  // in what the target is in
+                        ? random.any({0x1p-12, 1e-4, 1e-5, 0.25, 1.0})  // in the matter or air of the target
                     : distance == 5 ? random.any({0x1p18, 200000.5, 5000.0})
                     : distance < 8  ? between(random, 0, far / 4)
                                     : between(random, 0, 2 * far);

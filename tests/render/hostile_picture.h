@@ -1,5 +1,5 @@
-// Random pictures at the edges of what docs/picture/definition.md allows: matter, look, lamp, ground, camera
-// and setting.
+// Makes random pictures at the edges of what docs/picture/definition.md allows: matter, look, lamp, ground,
+// camera and setting.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ struct HostilePicture {
   state::Volume volume;
   scene::Look look;
   scene::Light light;
-  scene::Terrain terrain;  // does not always fit the volume: then it counts as none
+  scene::Terrain terrain;  // counts as none if it does not fit the volume
   scene::Camera camera;
   render::Setting setting = render::Setting::fast;
 };
 
-// The same on every machine. `most` bounds the number of cells.
+// Makes a picture that is the same on every machine. `most` bounds the number of cells.
 HostilePicture hostile_picture(std::uint64_t seed, int most);
 
-// One with clear matter, through which rays see far: obstacles, ground, sides of the grid, surfaces.
+// Makes one with clear matter, through which rays see far: obstacles, ground, sides of the grid, surfaces.
 HostilePicture hostile_clear_picture(std::uint64_t seed, int most);
 
-// One of parallel rays: the grid fits, or pixels are of the sizes at which rays take finer steps.
+// Makes one of parallel rays: the grid fits, or pixels are of the sizes at which rays take finer steps.
 HostilePicture hostile_orthographic_picture(std::uint64_t seed, int most);
 
-// What it is made of, in words.
+// Describes the picture in words.
 std::string description(const HostilePicture& picture);
 
 }  // namespace voxmelt::test

@@ -1,4 +1,4 @@
-// Files and sheets.
+// Files and sheets of pictures are tested.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -88,8 +88,8 @@ TEST_F(Files, Png16RoundTrip) {
   EXPECT_THROW(render::read_png16(folder_ / "colors.png"), render::ImageError);
 }
 
-// Signature, IHDR with its checksum as other programs write them, sRGB; the checksum of IEND is in every PNG
-// file.
+// The file begins with the signature, IHDR with its checksum as other programs write them, and sRGB. The
+// checksum of IEND is in every PNG file.
 TEST(Png, BytesOfAPictureAreAPngFile) {
   const std::string bytes = render::png_bytes(Image(1, 1));
   const std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\2\0\0\0\x90wS\xde", 33);
@@ -103,8 +103,8 @@ TEST(Png, BytesOfAPictureAreAPngFile) {
   EXPECT_EQ(bytes.substr(bytes.size() - 12), end);
 }
 
-// Each row repeats the one above it, or each pixel the one on its left: all differences are 0, but those of a
-// side.
+// Each row repeats the one above it, or each pixel the one on its left. So all differences are 0, except
+// those of a side.
 TEST(Png, TheBetterFilterIsTaken) {
   Image columns = random_image(300, 300), rows = columns;
   for (int y = 0; y < 300; ++y)

@@ -17,7 +17,7 @@
 namespace voxmelt::test {
 namespace {
 
-// 17 digits read back exactly.
+// Numbers have 17 digits, which read back exactly.
 std::string text_of(std::initializer_list<double> numbers) {
   std::string text;
   for (const double number : numbers) {

@@ -1,14 +1,16 @@
-// The reference, every instruction set and the judge draw the same bytes: random hostile pictures by seed.
+// The reference, every instruction set and the judge draw the same bytes in random hostile pictures by seed.
 // The judge (tests/picture_judge) was written from docs/picture/definition.md alone, so it sees bugs of
-// render/rule that all others share. See one picture again: VOXMELT_PICTURE_SEED=N render_judge_test.
+// render/rule that all others share. VOXMELT_PICTURE_SEED=N render_judge_test shows one picture again.
 //
-// Bugs that were planted in render/rule, and that it found: the weight below, not the nearest; a bisection
+// Bugs were planted in render/rule, and the judge found them: the weight below, not the nearest; a bisection
 // that keeps the old level; a root without the straight line; vectors of one bit more; the lamp's rays,
 // openness, the lowering of the ground and patches of rock off by one; rims that bend inwards; obstacles one
 // share later; the near plane a sixteenth later.
 //
-// Bugs that were planted in the judge's own walk through clear matter, and that the clear pictures showed: a
+// Bugs were planted in the judge's own walk through clear matter, too, and the clear pictures showed them: a
 // stretch that looks ahead; no rest of the way to the ground; parts from the wrong end; the outer normal from
+// within; frost and ways that forget obstacles; no bias; light, press and the grid of light a little
+// different.
 // within; frost and ways that forget obstacles; no bias; light, press and the grid of light a little
 // different.
 #include <gtest/gtest.h>
@@ -50,7 +52,7 @@ constexpr int kMostCells = 12000;
 #endif
 constexpr int kMostThreads = 8;
 
-// As the judge writes it.
+// Returns the field's bytes as the judge writes them.
 std::vector<std::uint8_t> field_bytes(const render::DensityField& field, const render::PictureScene& scene) {
   std::vector<std::uint8_t> bytes;
   for (const auto* channel :
@@ -66,7 +68,7 @@ std::vector<std::uint8_t> field_bytes(const render::DensityField& field, const r
   return bytes;
 }
 
-// Every instruction set and number of threads, and no samples left out.
+// Draws with every instruction set and number of threads, and with no samples left out.
 void expect_packets_draw(const Image& expected, const HostilePicture& hostile_picture) {
   render::Picture picture;
   picture.update(hostile_picture.volume, hostile_picture.look, hostile_picture.light, hostile_picture.terrain,
@@ -87,7 +89,7 @@ void expect_packets_draw(const Image& expected, const HostilePicture& hostile_pi
   });
 }
 
-// Depths of every instruction set, and each pixel alone.
+// Compares the depths of every instruction set, and each pixel alone.
 void expect_surfaces(const std::vector<test::JudgedSurface>& judged, const HostilePicture& hostile_picture) {
   render::Picture picture;
   picture.update(hostile_picture.volume, hostile_picture.look, hostile_picture.light, hostile_picture.terrain,
@@ -122,7 +124,8 @@ bool has_colors(const Image& image) {
                      [&](const render::Rgb& pixel) { return pixel != image.pixels[0]; });
 }
 
-using Counts = std::array<std::uint64_t, 3>;  // of pictures of more than one colour, by halvings of the step
+// Counts the pictures of more than one colour, by halvings of the step.
+using Counts = std::array<std::uint64_t, 3>;
 
 void expect_all_agree(const HostilePicture& picture, const std::filesystem::path& file, Counts& full) {
   render::DensityField field;

@@ -1,4 +1,4 @@
-// The light of every instruction set, told and untold, against plain loops over the rule.
+// The light of every instruction set, told and untold, agrees with plain loops over the rule.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using picture::Vector;
 using worlds::Random;
 
-// The loops that this processor can run.
+// Returns the loops that this processor can run.
 std::vector<std::pair<std::string, render::LightLoops>> all_loops() {
   using enum cpu::InstructionSet;
   std::vector<std::pair<std::string, render::LightLoops>> all;
@@ -38,7 +38,7 @@ std::uint8_t any_byte(Random& random) {
   return static_cast<std::uint8_t>(random.one_in(2) ? 0 : random.one_in(4) ? 255 : random.below(256));
 }
 
-// A box of noise, or of one value.
+// Changes a box to noise, or to one value.
 void change(render::LightPlane& plane, Random& random, int most) {
   const auto side = [&](std::int64_t count) {
     const int low = random.below(static_cast<int>(count));
@@ -64,7 +64,7 @@ render::LightMatter any_matter(Random& random, Vector count, bool glow) {
   return matter;
 }
 
-// Each axis dominant, ties, negative components, and components of 0.
+// Each axis may dominate. There are ties, negative components, and components of 0.
 Vector any_direction(Random& random) {
   const auto component = [&]() -> std::int64_t {
     return random.one_in(4) ? 0 : random.one_in(4) ? 1 - 2 * random.below(2) : random.between(-20, 20);
@@ -115,7 +115,7 @@ TEST(Light, AllSweepsToldAndUntold) {
     }
 }
 
-// A wall of every density: the blends reach both ends of their ranges.
+// A wall of every density makes the blends reach both ends of their ranges.
 TEST(Light, FullLossBetweenCells) {
   for (const auto& [name, loops] : all_loops())
     for (const std::int64_t lean : {0, 1, 64, 127, 128, 200}) {
@@ -131,13 +131,12 @@ TEST(Light, FullLossBetweenCells) {
     }
 }
 
-// A field over ground, changed brick by brick.
+// The light is that of a field over ground, changed brick by brick.
 TEST(Light, SourcesToldAndUntold) {
   for (const auto& [name, loops] : all_loops())
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
       Random random(seed * 31 + 9);
-      // The last ones are so large that a cell of light is 4, 8 and 16 cells wide, or would be: long and
-      // thin.
+      // One grid is so long that a cell of light is 4 cells wide, and one is a row of nine cells.
       const state::Grid grid =
           seed == 20   ? state::Grid{3000, 60, 31}
           : seed == 21 ? state::Grid{9, 1, 1}

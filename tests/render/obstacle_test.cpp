@@ -1,4 +1,4 @@
-// Inert cells that are no ground: walls, posts, basins.
+// Some inert cells are no ground: walls, posts, basins.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void block(state::Volume& volume, int x0, int x1, int y0, int y1, int z0, int z1
       }
 }
 
-// A wall from the front to the back of the grid, on a floor.
+// Makes a wall from the front to the back of the grid, on a floor.
 state::Volume walled() {
   state::Volume volume = test::floor_volume(kGrid);
   block(volume, kWallLeft, kWallRight, test::kFloor, kWallTop, 0, kGrid.z);
@@ -116,7 +116,7 @@ TEST(Obstacle, LeavesTheGroundFlatAndDry) {
   for (const std::int32_t wet : field.wetness()) EXPECT_EQ(wet, 0);
 }
 
-// Share of the lamp that reaches a surface.
+// Returns the share of the lamp that reaches a surface.
 double lamp_at(const DensityField& field, Point to_light, Point at, Point normal) {
   scene::Light light;
   light.direction = {to_light.x, to_light.y, to_light.z};
@@ -170,15 +170,15 @@ TEST(Obstacle, SurfaceRisesWithTheLayerOnIt) {
     const Sight sight(field);
     const Hit hit = hit_of(sight, {20.3, 60, 20.2});
     EXPECT_NEAR(hit.point.y, 9 + depth, 0.2) << depth;
-    // A film of half a cell hides the obstacle; a thinner one lets some of it through.
+    // A film of half a cell hides the obstacle. A thinner one lets some of it through.
     const double shown = sight.obstacle(hit);
     EXPECT_LE(shown, depth < 0.5 ? last : 0.1) << depth;
     last = shown;
   }
 }
 
-// An obstacle is filtered like a solid: a thin beam stays as it is under a film, however much the liquid
-// is smoothed.
+// An obstacle is filtered like a solid. A thin beam stays as it is under a film, however much the liquid is
+// smoothed.
 TEST(Obstacle, ThinBeamSurvivesUnderAFilm) {
   const auto top_with = [](int smooth) {
     state::Volume volume(kGrid);
@@ -215,13 +215,13 @@ TEST(Obstacle, ColoursEndWithinACell) {
   // (the edge is curved).
   EXPECT_GT(sight.obstacle(hit_of(sight, {-20, level + 2, 20.3}, {1, 0, 0})), 0.99);
   EXPECT_LT(sight.obstacle(hit_of(sight, {kWallLeft - 1.5, 60, 20.3})), 0.01);
-  // Inside: on either side of where they meet, and three cells into the liquid.
+  // Inside, the places are on either side of the border, and three cells into the liquid.
   EXPECT_LT(sight.matter({kWallLeft - 1, level - 3, 20.3}).obstacle, 148);
   EXPECT_GT(sight.matter({kWallLeft + 1.5, level - 3, 20.3}).obstacle, 204);
   EXPECT_EQ(sight.matter({kWallLeft - 3, level - 3, 20.3}).liquid, 255) << "an obstacle is no solid";
 }
 
-// Outside of the grid there is air: it closes what the grid cuts.
+// Outside of the grid there is air, which closes the matter that the grid cuts.
 TEST(Obstacle, CutFacesAreFlatAndClosed) {
   state::Volume volume = walled();
   pour_left_of_wall(volume, 6);
@@ -256,7 +256,7 @@ TEST(Obstacle, UpdatesLikeAFreshField) {
       volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(random() % 5000);
       volume.liquid.set(x, y, z, volume.amount[volume.at(x, y, z)] > 0);
     }
-    if (round == 6) block(volume, 4, 9, 2, 9, 4, 9);  // not only matter may change
+    if (round == 6) block(volume, 4, 9, 2, 9, 4, 9);  // obstacles may change, too
     EXPECT_LT(kept.update(volume, look, terrain), static_cast<int>(kept.bricks().cells()));
     DensityField fresh;
     fresh.update(volume, look, terrain);

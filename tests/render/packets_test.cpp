@@ -1,4 +1,5 @@
-// Pictures by packets of rays against the plain loops of the reference: random hostile scenes and cameras.
+// Pictures by packets of rays agree with the plain loops of the reference, in random hostile scenes and
+// cameras.
 //
 // Planted bugs and the tests that saw them are listed in docs/decisions/picture-packets.md.
 #include "render/packet/picture.h"
@@ -57,7 +58,7 @@ void fill_somehow(state::Volume& volume, Random& random, int share) {
       }
 }
 
-// Boxes of full cells with sharp sides, and air between them: rays come to them from afar.
+// Puts boxes of full cells with sharp sides into air. Rays come to them from afar.
 void put_boxes(state::Volume& volume, Random& random) {
   const state::Grid grid = volume.grid;
   for (int box = random.whole(1, 5); box > 0; --box) {
@@ -200,7 +201,7 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
   for (const int count : halved) EXPECT_GT(count, 30);
 }
 
-// The picture is the same whether some bricks are taken over or all.
+// The picture is the same if some bricks are taken over, or all.
 TEST(PictureOfPackets, TakesOverChangedBricks) {
   const state::Grid grid{40, 30, 33};
   state::Volume volume = test::ball_and_puddle(grid);
@@ -292,7 +293,7 @@ TEST(PictureOfPackets, DrawsExoticCameras) {
   };
   EXPECT_FALSE(fits());
   expect_same();
-  camera.distance = 30;  // as wide, but near
+  camera.distance = 30;  // as wide as before, but near
   EXPECT_TRUE(fits());
   expect_same();
   camera = test::small_camera(grid, 64, 64);
@@ -302,7 +303,7 @@ TEST(PictureOfPackets, DrawsExoticCameras) {
   expect_same();
 }
 
-// By hand: a camera on the axis z looks at a wall that fills the grid's height, with its front at z = 16.
+// By hand, a camera on the axis z looks at a wall that fills the grid's height, with its front at z = 16.
 TEST(PictureOfPackets, DepthAndNormalOfAWall) {
   const state::Grid grid{16, 16, 16};
   state::Volume volume(grid);
@@ -326,7 +327,7 @@ TEST(PictureOfPackets, DepthAndNormalOfAWall) {
   camera.width = camera.height = 33;
   const render::SurfacePicture surface = picture.surface(camera, render::Setting::fast, 1);
   const std::size_t middle = 16 * 33 + 16;
-  // The rays start 1/2 + 3/16 cells before the wall (picture::near_depth): 22 of 32nds.
+  // The rays start 1/2 + 3/16 cells before the wall (picture::near_depth), which is 22 of 32nds.
   EXPECT_NEAR(surface.depth[middle], 22, 1);
   EXPECT_EQ(surface.normal[middle], (std::array<std::int16_t, 3>{0, 0, 16384}));
   EXPECT_EQ(surface.depth[0], picture::kNoDepth);

@@ -1,4 +1,4 @@
-// Pictures that must be the same.
+// Some pictures must be the same, and their first difference is described here.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace voxmelt::test {
 
-// Where two pictures differ first, and how often; empty where they do not.
+// Says where two pictures differ first, and how often. Returns nothing if they do not differ.
 inline std::string difference(const render::Image& expected, const render::Image& found) {
   if (expected.width != found.width || expected.height != found.height) return "another size";
   std::size_t pixels = 0;

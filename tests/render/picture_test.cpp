@@ -1,4 +1,4 @@
-// Pictures: independent of threads and of what is left out, free of specks.
+// Pictures depend neither on threads nor on the samples left out, and have no specks.
 #include "render/packet/picture.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ Image drawn(const state::Volume& volume, const scene::Camera& camera, const scen
   return picture_of(volume, look, terrain).draw(camera, Setting::normal, 1);
 }
 
-// Of every instruction set that this processor has.
+// The pictures are drawn by every instruction set that this processor has.
 TEST(Picture, LeavingSamplesOutChangesNothing) {
   const Picture picture = picture_of(test::ball_and_puddle(kGrid));
   for (const double azimuth : {0.0, 35.0, 211.0})
@@ -114,7 +114,7 @@ TEST(Picture, BallIsRoundAndItsNormalsPointOut) {
   }
 }
 
-// A hot sheet from above: every pixel well inside the sheet glows, and neighbours differ little.
+// A hot sheet is seen from above. Every pixel well inside the sheet glows, and neighbours differ little.
 TEST(Picture, HotSheetHasNoSpecks) {
   state::Volume volume = test::floor_volume(kGrid);
   for (int z = 8; z < 40; ++z)
@@ -126,7 +126,7 @@ TEST(Picture, HotSheetHasNoSpecks) {
   camera.target = {24, 2, 24};
   camera.azimuth = 0;
   camera.elevation = 80;
-  camera.distance = 44;  // the picture shows about 24 cells: sheet alone
+  camera.distance = 44;  // the picture shows about 24 cells, and the sheet alone
   const Image image = drawn(volume, camera, look);
   for (int y = 1; y < image.height; ++y)
     for (int x = 1; x < image.width; ++x) {
@@ -155,7 +155,7 @@ TEST(Picture, ThinFilmIsVisible) {
   }
 }
 
-// The state says where its ground is; a scene's terrain is a refinement of it.
+// The state says where its ground is. A scene's terrain is a refinement of it.
 TEST(Picture, GroundComesFromTheFieldWithoutATerrain) {
   const state::Volume volume = test::ball_and_puddle(kGrid);
   const scene::Camera camera = test::small_camera(kGrid);
@@ -163,7 +163,8 @@ TEST(Picture, GroundComesFromTheFieldWithoutATerrain) {
   EXPECT_FALSE(drawn(volume, camera) == drawn(state::Volume(kGrid), camera, {}, {}));
 }
 
-// The camera of a scene file, in degrees and cells: the middle of the picture shows its target, and up is up.
+// The camera of a scene file is in degrees and cells. The middle of the picture shows its target, and up is
+// up.
 TEST(Picture, CameraLooksAtTheTarget) {
   state::Volume volume(kGrid);
   test::ball(volume, 12, 25, 30, 5);

@@ -1,4 +1,4 @@
-// What each cell contributes before filtering, column by column.
+// Computes the contribution of each cell before filtering, column by column.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

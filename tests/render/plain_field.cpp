@@ -30,10 +30,10 @@ Cells mixed(const Cells& solid, const Cells& liquid, const Cells& filtered_solid
 
 }  // namespace
 
-// Each axis of a pass anew over the whole grid.
+// Filters each axis of a pass anew over the whole grid.
 Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
-  // Outside, what the passes so far would give: the nearest cell's value of the beginning does not suffice,
-  // so the grid is widened by what the passes reach.
+  // Outside, the values must be those after the passes so far. The nearest cell's first value does not
+  // suffice, so the grid is widened by the reach of the passes.
   const state::Grid side{grid.x + 2 * passes, grid.y + 2 * passes, grid.z + 2 * passes};
   std::vector<std::uint32_t> now(side.cells());
   for (int z = 0; z < side.z; ++z)

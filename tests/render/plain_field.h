@@ -1,5 +1,5 @@
-// The field that is drawn, written plainly: it computes whole grids anew, one cell after the other. What
-// render/density keeps up to date in pieces must be the same, bit for bit.
+// The field that is drawn is written plainly here: it computes whole grids anew, one cell after the other.
+// The pieces that render/density keeps up to date must be the same, bit for bit.
 #pragma once
 
 #include <cstdint>

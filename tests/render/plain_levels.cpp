@@ -1,4 +1,4 @@
-// The level of puddles smoothed along the surface, column by column, in 64 bits.
+// The level of puddles is smoothed along the surface, column by column, in 64 bits.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -22,12 +22,12 @@ std::int64_t floor_of(std::int64_t number, std::int64_t divisor) {
   return number >= 0 ? number / divisor : -((-number + divisor - 1) / divisor);
 }
 
-// Share of a difference between neighbours that is smoothed: all up to one cell, nothing from two.
+// Returns the smoothed share of a difference between neighbours: all up to one cell, nothing from two.
 std::int32_t share(std::int32_t difference) {
   return std::clamp(2 * kOne - std::abs(difference) / kFraction, 0, kOne);
 }
 
-// Second difference across a column, 0 where one of the two neighbours holds no puddle.
+// Returns the second difference across a column, or 0 if one of the two neighbours holds no puddle.
 std::int64_t bend(std::int32_t before, std::int32_t here, std::int32_t after) {
   if (before == kNoLevel || after == kNoLevel) return 0;
   const std::int32_t down = before - here, up = after - here;
@@ -52,7 +52,7 @@ std::vector<std::int32_t> plain_level_shifts(const PuddleLevels& levels, int pas
       for (int x = 0; x < levels.x; ++x) {
         const std::int32_t here = now[index(x, z)];
         if (here == kNoLevel) continue;
-        // The 3x3 binomial filter where all neighbours count.
+        // If all neighbours count, this is the 3x3 binomial filter.
         const std::int64_t straight =
             bend(at(x - 1, z), here, at(x + 1, z)) + bend(at(x, z - 1), here, at(x, z + 1));
         const std::int64_t diagonal =

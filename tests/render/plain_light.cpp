@@ -16,7 +16,7 @@ using render::LightBytes;
 using render::LightMatter;
 using render::LightPlane;
 
-// A volume as slices along an axis, from the side where the light comes in.
+// Views a volume as slices along an axis, from the side where the light comes in.
 class Slices {
  public:
   Slices(const LightPlane& plane, int axis, bool from_high)
@@ -41,7 +41,7 @@ class Slices {
   bool from_high_;
 };
 
-// One slice of bytes. Beyond its sides there is `outside`.
+// Holds one slice of bytes. Beyond its sides there is `outside`.
 class Slice {
  public:
   Slice(std::int64_t u, std::int64_t v, std::int32_t outside)
@@ -60,8 +60,8 @@ class Slice {
   std::vector<std::int32_t> cells_;
 };
 
-// Calls leave(cell) for what leaves each cell of a slice and arrive(cell, value) for what arrives in the next
-// one, after both axes were filtered: first along u, then along v.
+// Calls leave(cell) for the light that leaves each cell of a slice. Calls arrive(cell, value) for the light
+// that arrives in the next slice, filtered first along u and then along v.
 template <class FilterU, class FilterV, class Leave, class Arrive>
 void sweep(const Slices& slices, std::int32_t outside, const FilterU& filter_u, const FilterV& filter_v,
            const Leave& leave, const Arrive& arrive) {
@@ -89,9 +89,9 @@ std::vector<std::int32_t> losses(const LightPlane& density) {
   return all;
 }
 
-// Along the axis of the direction's largest component; y comes before x, and x before z. A cell at (u, v) of
-// a slice lies between the rays around (u, v) plus the shift; a ray lies between the cells around it less the
-// shift.
+// Sweeps along the axis of the direction's largest component. In a tie y comes before x, and x before z. A
+// cell at (u, v) of a slice lies between the rays around (u, v) plus the shift. A ray lies between the cells
+// around it less the shift.
 void sweep_lamp(const LightMatter& matter, const std::vector<std::int32_t>& loss, Vector to_light,
                 std::vector<LightBytes>& cells) {
   const std::int64_t component[3] = {to_light.x, to_light.y, to_light.z};
@@ -175,7 +175,8 @@ void for_cells(const state::Grid& grid, int shift, picture::Vector at, const Vis
       for (int x = static_cast<int>(at.x << shift); x < end(at.x, grid.x); ++x) visit(x, y, z);
 }
 
-// What is left of the density of clear matter, in 256ths: in double, as far as the rule's roundings let it.
+// Returns the rest of the density of clear matter, in 256ths. It is in double, as far as the rule's roundings
+// let it.
 std::int64_t plain_share(double half, int width) {
   const double per_cell = std::min(std::floor(4096 / std::max(half, 1.0 / 64)), 4096.0) / 16;
   const double entry = std::floor(width * per_cell);

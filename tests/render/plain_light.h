@@ -1,5 +1,5 @@
-// The light by plain loops over render/rule (docs/picture/light.md, sections 4 and 5): what the fast sweeps
-// are held to.
+// Computes the light by plain loops over render/rule (docs/picture/light.md, sections 4 and 5). The fast
+// sweeps must agree with them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace voxmelt::test {
 
-// `ground`: height of each column in 1/4096 cells, [z][x]; empty where there is none.
+// `ground` is the height of each column in 1/4096 cells, [z][x]. It is empty if there is no ground.
 render::LightMatter plain_light_matter(const render::DensityField& field,
                                        const std::vector<std::int32_t>& ground, const picture::Look& look);
 

@@ -1,4 +1,5 @@
-// The field in its pieces against the field written plainly: random worlds of any size, kept up to date.
+// The field in its pieces agrees with the field written plainly, in random worlds of any size, kept up to
+// date.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ class Random {
   std::mt19937 bits_;
 };
 
-// Anything that a volume may hold at a cell: `kind` 0 nothing, 1 solid, 2 liquid, 3 inert.
+// Puts anything that a volume may hold into a cell: `kind` 0 is nothing, 1 solid, 2 liquid, 3 inert.
 void put(state::Volume& volume, int x, int y, int z, int kind, Random& random) {
   const state::Slot at = volume.at(x, y, z);
   const int amount = random.one_in(4) ? rule::kOne : 1 + random.below(random.one_in(5) ? 65535 : 5000);
@@ -34,7 +35,7 @@ void put(state::Volume& volume, int x, int y, int z, int kind, Random& random) {
   volume.heat[at] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
 }
 
-// Uneven ground, puddles on it, lumps and walls above: what scenes are made of, and some dust.
+// Makes uneven ground, puddles on it, lumps and walls above, as in scenes, and some dust.
 state::Volume world(const state::Grid& grid, Random& random) {
   state::Volume volume(grid);
   const int ground = random.below(3) == 0 ? 0 : grid.y / 3 + 1, depth = 1 + random.below(3);

@@ -1,4 +1,4 @@
-// The surface in integers against the cubic surface in double, ray by ray; levels by hand.
+// The surface in integers agrees with the cubic surface in double, ray by ray. Levels are tested by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 using test::Hit;
 using test::Point;
 
-// A full cell alone, unfiltered: 170 and 43 of 256 along each axis.
+// A full cell alone, unfiltered, gives 170 and 43 of 256 along each axis.
 TEST(Levels, AFullCellByHand) {
   const state::Grid grid{7, 9, 8};
   state::Volume volume(grid);
@@ -46,7 +46,7 @@ TEST(Levels, AFullCellByHand) {
 
 struct Differences {
   std::size_t rays = 0, met = 0, one_alone = 0;
-  std::vector<double> along_normal, degrees;  // of rays that meet both surfaces, sorted
+  std::vector<double> along_normal, degrees;  // for rays that meet both surfaces, sorted
   double distance(double share) const { return at(along_normal, share); }
   double angle(double share) const { return at(degrees, share); }
 

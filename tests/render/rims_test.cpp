@@ -21,8 +21,8 @@ constexpr double kMost = 0.3;  // cells
 constexpr state::Grid kGrid{64, 48, 64};
 constexpr int kPixelsPerCell = 8;
 
-// From above, so far away that rays are parallel. No camera looks down more steeply than by 89 degrees, so a
-// place is seen a little nearer to the top the higher it lies.
+// Draws from above, from so far away that rays are parallel. No camera looks down more steeply than by 89
+// degrees, so a place is seen a little nearer to the top the higher it lies.
 struct FromAbove {
   FromAbove(const state::Volume& volume, const scene::Terrain& terrain) {
     scene::Look look;
@@ -42,7 +42,7 @@ struct FromAbove {
     picture.update(volume, look, light, terrain, 1);
     image = picture.draw(camera, render::Setting::best, 1);
   }
-  // Is liquid seen at a place of the grid, on a surface of height y?
+  // Tells whether liquid is seen at a place of the grid, on a surface of height y.
   bool liquid(double x, double y, double z) const {
     constexpr double kTilt = std::numbers::pi / 180;
     z = kGrid.z / 2.0 + (z - kGrid.z / 2.0) * std::cos(kTilt) - y * std::sin(kTilt);
@@ -52,7 +52,7 @@ struct FromAbove {
     const render::Rgb& rgb = image.at(pixel(x), pixel(z));
     return rgb[0] > rgb[2];
   }
-  // How far from (x, y, z) along (dx, 0, dz) the liquid ends.
+  // Returns the distance from (x, y, z) along (dx, 0, dz) to the end of the liquid.
   double rim(double x, double y, double z, double dx, double dz) const {
     double t = 0;
     while (t < kGrid.x && liquid(x + t * dx, y, z + t * dz)) t += 0.02;
@@ -67,7 +67,7 @@ double spread(const std::vector<double>& all) {
   return (*high - *low) / 2;
 }
 
-// Of whole columns: a pancake with a steep rim, and a dome that ends in a thin film.
+// The puddles have whole columns: a pancake with a steep rim, and a dome that ends in a thin film.
 TEST(Rim, OfARoundPuddle) {
   for (const double radius : {11.3, 20.0, 24.6})
     for (const bool dome : {false, true}) {
@@ -92,8 +92,8 @@ TEST(Rim, OfARoundPuddle) {
     }
 }
 
-// A tongue of lava down a slope, equally wide everywhere: both of its sides are straight. Columns at its
-// sides are covered in part.
+// A tongue of lava runs down a slope, equally wide everywhere, so both of its sides are straight. Columns at
+// its sides are covered in part.
 TEST(Rim, OfATongueOnASlope) {
   for (const double rise : {0.2, 0.55})
     for (const double turn : {0.0, 0.13, 0.46, 0.7}) {
@@ -112,7 +112,8 @@ TEST(Rim, OfATongueOnASlope) {
           }
           volume.amount[volume.at(x, bed - 1, z)] =
               static_cast<std::uint16_t>(rule::kBedHalf + std::lround((height - bed) * rule::kOne));
-          const double covered = std::min(7.5 - std::abs(dz * ux - dx * uz), 1.0);  // of the column
+          // This share of the column is covered.
+          const double covered = std::min(7.5 - std::abs(dz * ux - dx * uz), 1.0);
           if (covered <= 0) continue;
           volume.liquid.set(x, bed, z, true);
           volume.amount[volume.at(x, bed, z)] = static_cast<std::uint16_t>(std::ceil(covered * rule::kOne));

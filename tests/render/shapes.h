@@ -1,4 +1,4 @@
-// Small volumes for the renderer's tests.
+// Makes small volumes for the renderer's tests.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ inline scene::Terrain floor_terrain(state::Grid grid) {
   return terrain;
 }
 
-// A column of liquid of the given height on the floor: full cells and a part-filled one.
+// Pours a column of liquid of the given height on the floor: full cells and a part-filled one.
 inline void pour(state::Volume& volume, int x, int z, double height, double temperature = 0.5) {
   int left = static_cast<int>(std::lround(height * rule::kOne));
   for (int y = kFloor; left > 0 && y < volume.grid.y; ++y, left -= rule::kOne) {
@@ -57,7 +57,7 @@ inline void ball(state::Volume& volume, double cx, double cy, double cz, double 
       }
 }
 
-// A ball above a flat puddle: every part of the renderer has something to do.
+// Makes a ball above a flat puddle, so that every part of the renderer has something to do.
 inline state::Volume ball_and_puddle(state::Grid grid) {
   state::Volume volume = floor_volume(grid);
   for (int z = 0; z < grid.z; ++z)

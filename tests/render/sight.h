@@ -1,4 +1,4 @@
-// What single rays meet in a field, by render/rule: for tests that ask for a place in cells.
+// Tells what single rays meet in a field, by render/rule, for tests that ask for a place in cells.
 #pragma once
 
 #include <algorithm>
@@ -46,9 +46,9 @@ class Sight {
   explicit Sight(const render::DensityField& field, const scene::Look& look = {})
       : look_(render::look_in_integers(look)), levels_(field), matter_(field, levels_, look_) {}
 
-  explicit Sight(render::DensityField&&, const scene::Look& = {}) = delete;  // it must live as long
+  explicit Sight(render::DensityField&&, const scene::Look& = {}) = delete;  // the field must live as long
 
-  // The first surface along `direction`, by samples a quarter of a cell apart.
+  // Finds the first surface along `direction`, by samples a quarter of a cell apart.
   std::optional<Hit> find(Point from, Point direction) const {
     const picture::Ray ray{scaled(from, picture::kPositionBits),
                            picture::step_along(scaled(direction, 30), 2)};
@@ -57,7 +57,7 @@ class Sight {
     return Hit{point_of(met.position, picture::kPositionBits),
                point_of(picture::normal_at(levels_, met.position), picture::kNormalBits)};
   }
-  // Height of the surface seen from above, -1 where there is none.
+  // Returns the height of the surface seen from above, or -1 if there is none.
   double height(double x, double z) const {
     const std::optional<Hit> hit = find({x, 100, z}, {0, -1, 0});
     return hit ? hit->point.y : -1;
@@ -65,8 +65,8 @@ class Sight {
   picture::Matter matter(Point at) const {
     return picture::matter_at(matter_, levels_.cells(), scaled(at, picture::kPositionBits));
   }
-  // How much of an obstacle shows at a surface, 0 .. 1: it is looked for half a cell before the surface, and
-  // counts from a share of 148 to one of 204 (docs/picture/light.md, section 6).
+  // Returns how much of an obstacle shows at a surface, 0 .. 1. It looks half a cell before the surface. An
+  // obstacle counts from a share of 148 to one of 204 (docs/picture/light.md, section 6).
   double obstacle(const Hit& hit) const {
     return std::clamp((matter(hit.point + hit.normal * 0.5).obstacle - 148) / 56.0, 0.0, 1.0);
   }

@@ -1,4 +1,4 @@
-// Two strengths of smoothing, for liquid and for solid, and puddles without terraces.
+// Smoothing has two strengths, for liquid and for solid, and leaves puddles without terraces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +82,8 @@ TEST(Smooth, ThinSolidSurvivesUnderAFilm) {
   }
 }
 
-// From a film of nothing to a deep layer on a solid slab, the surface rises as the layer does: no seam.
+// From a film of nothing to a deep layer on a solid slab, the surface rises as the layer does. There is no
+// seam.
 TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
   const state::Grid grid{72, 24, 24};
   state::Volume volume(grid);
@@ -101,7 +102,7 @@ TEST(Smooth, SurfaceRisesWithTheLayerOnASolid) {
   for (double x = 16; x < 64; x += 0.31) EXPECT_NEAR(sight.height(x, 12.1), 8 + depth(x), 0.2) << x;
 }
 
-// Level 6 + x / period; each terrace of so many columns is up to `wave` too high and too low.
+// The level is 6 + x / period. Each terrace of so many columns is up to `wave` too high and too low.
 render::PuddleLevels terraced_slope(int side, double wave, int period = 4) {
   render::PuddleLevels levels{side, side, {}, {}};
   for (int z = 0; z < side; ++z)
@@ -122,9 +123,9 @@ TEST(Levels, ShiftsAreSmallAndDrySpotsAndCliffsStay) {
   render::PuddleLevels levels = terraced_slope(24, 0);
   const auto at = [](int x, int z) { return static_cast<std::size_t>(z * 24 + x); };
   levels.level[at(5, 5)] = render::kNoLevel;
-  levels.level[at(12, 12)] += 3 * rule::kOne;  // falling liquid: no puddle
+  levels.level[at(12, 12)] += 3 * rule::kOne;  // falling liquid, so no puddle
   levels.level[at(18, 6)] += rule::kOne;       // a drop
-  levels.level[at(18, 18)] += rule::kOne;      // the same, but the layer is thin
+  levels.level[at(18, 18)] += rule::kOne;      // a drop again, but the layer is thin
   levels.depth[at(18, 18)] = rule::kOne / 10;
   const auto shifts = render::level_shifts(levels, 24);
   EXPECT_EQ(shifts[at(5, 5)], 0);
@@ -143,7 +144,7 @@ TEST(Levels, TerracesGo) {
   }
 }
 
-// From volume to picture: a terraced puddle is drawn as the slope it stands for.
+// From volume to picture, a terraced puddle is drawn as the slope that it stands for.
 TEST(Smooth, TerracesOfAPuddleDoNotShow) {
   const state::Grid grid{48, 24, 24};
   state::Volume volume = test::floor_volume(grid);

@@ -1,4 +1,4 @@
-// The boxes of tiles: no sample in matter lies outside of the box of any tile through which its ray goes.
+// A ray meets no sample in matter outside of the box of its tile.
 #include "render/packet/tile_boxes.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ bool holds(const render::FieldData& field, picture::Vector at) {
          field.low.z <= at.z && at.z < field.high.z;
 }
 
-// By hand: the eye stands 100 cells before the origin and looks along -z, and the picture is 200 pixels of 64
-// places high. Half its height is 100 tan 45 cells at the origin: 64 places to a cell there.
+// By hand, the eye stands 100 cells before the origin and looks along -z. The picture is 200 pixels of 64
+// places high. Half its height is 100 tan 45 cells at the origin, so a cell there has 64 places.
 TEST(Projection, OfABoxBeforeTheEyeByHand) {
   const picture::Camera camera{.target = {},
                                .distance = std::int64_t{100} << 12,
@@ -108,7 +108,7 @@ TEST(TileBoxes, HoldAllMatterThatTheirRaysMeet) {
   EXPECT_GT(empty, 200);
 }
 
-// What is full on all sides is not in the shell, and nothing else is missing.
+// Blocks that are full on all sides are not in the shell, and nothing else is missing.
 TEST(TileBoxes, ShellIsWhatIsNotSurrounded) {
   state::Volume volume({64, 64, 64});
   test::ball(volume, 32, 32, 32, 26);
@@ -119,7 +119,7 @@ TEST(TileBoxes, ShellIsWhatIsNotSurrounded) {
   };
   std::size_t found = 0;
   for (const BlockBox& box : bricks.shell()) {
-    ASSERT_EQ(box.low[0] / 2, (box.high[0] - 1) / 2);  // of one brick
+    ASSERT_EQ(box.low[0] / 2, (box.high[0] - 1) / 2);  // the box lies in one brick
     for (int z = box.low[2]; z < box.high[2]; ++z)
       for (int y = box.low[1]; y < box.high[1]; ++y)
         for (int x = box.low[0]; x < box.high[0]; ++x) found += occupied(x, y, z) ? 1 : 0;

@@ -1,5 +1,5 @@
-// A field that is told which bricks changed is what a plain field of the whole volume is: after steps of any
-// implementation, after edits that are told, and however it is used.
+// A field that is told of changed bricks equals a plain field of the whole volume. This holds after steps of
+// any implementation, after edits that are told, and however the field is used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ scene::Terrain any_terrain(Random& random, const state::Grid& grid) {
   return terrain;
 }
 
-// Everything that may be drawn, to be compared brick by brick.
+// Holds everything that may be drawn, to be compared brick by brick.
 struct Shown {
   explicit Shown(const DensityField& field)
       : intensity(field.intensity()),
@@ -48,7 +48,7 @@ struct Shown {
   render::Values<std::uint16_t> intensity, solid, liquid, heat, obstacle;
 };
 
-// The bricks in which what is shown has changed are among those that were told.
+// Expects that every brick with a visible change is among those that were told.
 void expect_refreshed(const Shown& before, const DensityField& field) {
   const Shown after(field);
   const auto& told = field.refreshed();
@@ -108,7 +108,7 @@ void edit(state::Volume& volume, int x, int y, int z, int kind, Random& random) 
   volume.heat[at] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
 }
 
-// A slope of ground with a puddle, a wall and a lump: everything that the columns tell apart.
+// Makes a slope of ground with a puddle, a wall and a lump, as columns tell all of these apart.
 state::Volume slope(const state::Grid& grid, Random& random) {
   state::Volume volume(grid);
   worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
@@ -158,7 +158,7 @@ TEST(Told, AfterEditsThatAreTold) {
   }
 }
 
-// A puddle that is moved up or down carries a change into the brick below or above; one that rises into the
+// A puddle that is moved up or down carries a change into the brick below or above. One that rises into the
 // next brick is a deeper one in all of its cells.
 TEST(Told, PuddlesCrossBricks) {
   const state::Grid grid{16, 24, 16};
@@ -195,7 +195,7 @@ TEST(Told, WhatIsNotToldIsNotSeen) {
   for (int y = 0; y < grid.y; ++y) edit(volume, 3, y, 4, 2, random);
   EXPECT_EQ(field.update(volume, {}, {}), 0);
   volume.changed.new_version();
-  volume.changed.mark(ChangedBricks::kMatter, 4, 0, 0);  // other bricks
+  volume.changed.mark(ChangedBricks::kMatter, 4, 0, 0);  // bricks of another place
   EXPECT_EQ(field.update(volume, {}, {}), 0);
   EXPECT_TRUE(field.intensity() == before);
   for (int y = 0; y < 3; ++y) volume.changed.mark(ChangedBricks::kMatter, 1, y, 0);
@@ -205,7 +205,7 @@ TEST(Told, WhatIsNotToldIsNotSeen) {
   test::expect_plain(field, volume, {});
 }
 
-// Heat alone is told apart, and read only where the look glows.
+// Heat alone is told apart, and read only if the look glows.
 TEST(Told, HeatIsReadWhereItGlows) {
   Random random(47);
   const state::Grid grid{20, 20, 20};
@@ -224,7 +224,7 @@ TEST(Told, HeatIsReadWhereItGlows) {
   test::expect_plain(other, volume, glowing);
 }
 
-// One field for two simulations, their copies, other grids, terrains and looks in turn.
+// One field serves two simulations, their copies, other grids, terrains and looks in turn.
 TEST(Told, OtherVolumesAreReadAnew) {
   Random random(53);
   const auto start = [&](const state::Grid& grid) {
@@ -247,7 +247,7 @@ TEST(Told, OtherVolumesAreReadAnew) {
     if (random.one_in(3)) {
       state::Volume copy = simulation.volume();
       field.update(copy, look, terrain);
-      worlds::put(copy, 1, 5, 1, 700);  // nobody tells what changes in a copy
+      worlds::put(copy, 1, 5, 1, 700);  // a change in a copy is not told
       field.update(copy, look, terrain);
       test::expect_plain(field, copy, look, terrain);
     } else {

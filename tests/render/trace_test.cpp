@@ -1,5 +1,5 @@
-// The reference's trace: it draws the same picture, its numbers fit the widths of docs/picture/trace.md, and
-// it reads as often as docs/picture/definition.md, section 12, says.
+// The reference's trace draws the same picture, and its numbers fit the widths of docs/picture/trace.md. It
+// reads as often as docs/picture/definition.md, section 12, says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ using test::HostilePicture;
 constexpr std::uint64_t kPictures = 60;
 constexpr int kMostCells = 12000;
 
-// A picture's parts in integers.
+// Holds a picture's parts in integers.
 struct World {
   explicit World(const HostilePicture& picture)
       : field(field_of(picture)),
@@ -51,7 +51,7 @@ struct World {
   picture::Camera camera;
 };
 
-// Its picture is small, but as wide for its height as it was.
+// Makes a hostile picture that is small, but as wide for its height as before.
 HostilePicture hostile(std::uint64_t seed) {
   HostilePicture picture = test::hostile_picture(seed, kMostCells);
   while (picture.camera.width * picture.camera.height > 1000) {
@@ -65,7 +65,7 @@ HostilePicture hostile(std::uint64_t seed) {
   return picture;
 }
 
-// As long as a grid may be along an axis, and full; along y with ground up to the top.
+// Makes a grid that is as long as it may be along an axis, and full. Along y it has ground up to the top.
 HostilePicture longest(int axis) {
   HostilePicture picture = test::hostile_picture(static_cast<std::uint64_t>(axis), kMostCells);
   const state::Grid grid{axis == 0 ? 1024 : 4, axis == 1 ? 1024 : 2, axis == 2 ? 1024 : 2};
@@ -117,7 +117,7 @@ TEST(Trace, DrawsTheSamePicture) {
   }
 }
 
-// The cells of a table's row in Markdown, without blanks around them; none for other lines.
+// Returns the cells of a table's row in Markdown, without blanks around them. Other lines have none.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   if (line.empty() || line[0] != '|') return cells;
@@ -135,10 +135,10 @@ struct Width {
   bool with_sign = false;
   int bits = 0;
   bool seen = false, other_count = false;
-  std::int64_t low = 0, high = 0;  // of all numbers that were told
+  std::int64_t low = 0, high = 0;  // range of all numbers that were told
 };
 
-// Every number that is told is looked up in the table of widths.
+// Looks up every number that is told in the table of widths.
 class Widths : public render::Listener {
  public:
   Widths() {
@@ -151,7 +151,7 @@ class Widths : public render::Listener {
   }
 
   void told(Stage stage, std::string_view name, std::span<const std::int64_t> numbers) override {
-    if (name == "range" && numbers[0] > numbers[1]) return;  // an empty one
+    if (name == "range" && numbers[0] > numbers[1]) return;  // an empty range
     if (name == "fetched") numbers = numbers.subspan(3);
     auto& names = widths_[std::string(render::name_of(stage))];
     const auto found = names.find(name);
@@ -168,7 +168,7 @@ class Widths : public render::Listener {
     }
   }
 
-  // In words; nothing if all is as the table says.
+  // Returns the errors in words, or nothing if all is as the table says.
   std::string wrong() const {
     std::ostringstream text;
     for (const std::string& name : unknown_) text << name << " is not in the table\n";
@@ -199,8 +199,8 @@ TEST(Trace, NumbersFitTheWidthsOfThePage) {
   EXPECT_EQ(widths.wrong(), "");
 }
 
-// Reads per piece of work, by the table of docs/picture/definition.md, section 12: the first number of the
-// second cell.
+// Returns the reads per piece of work by the table of docs/picture/definition.md, section 12: the first
+// number of the second cell.
 std::map<std::string, int> reads_of_the_page() {
   std::map<std::string, int> reads;
   std::ifstream page(VOXMELT_DOCS "/picture/definition.md");
@@ -213,7 +213,7 @@ std::map<std::string, int> reads_of_the_page() {
   return reads;
 }
 
-// Counts what is fetched for each piece of work, and whether it all lies in one brick.
+// Counts the fetches for each piece of work, and checks that those of a piece lie in one brick.
 class Reads : public render::Listener {
  public:
   void told(Stage stage, std::string_view name, std::span<const std::int64_t> numbers) override {
@@ -245,7 +245,7 @@ class Reads : public render::Listener {
     if (stage == Stage::unit && name == "R") count("length", static_cast<int>(numbers.size()));
   }
 
-  std::map<std::string, std::set<int>> counts;  // those that occurred
+  std::map<std::string, std::set<int>> counts;  // the counts that occurred
   int outside_bricks = 0;
 
  private:

@@ -1,5 +1,5 @@
-// Films: what ffmpeg gets, and what is said when it fails. Scripts stand for ffmpeg, and the real one where
-// it is.
+// The tests look at the frames that ffmpeg gets, and at the message when it fails. Scripts stand for ffmpeg,
+// and the real one is used if it is there.
 #include "render/image/video.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class Video : public testing::Test {
     for (render::Rgb& pixel : image.pixels) pixel = {static_cast<std::uint8_t>(random_()), 7, 9};
     return image;
   }
-  // Of `count` frames of 300 x 200: much more than a pipe holds.
+  // Makes a film of `count` frames of 300 x 200, much more than a pipe holds.
   std::optional<std::string> film(int count) {
     VideoWriter video(folder_ / "film.mp4", 10);
     for (int i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Lines of work: order, room, errors.
+// Lines of work keep their order, their room and their errors.
 #include "render/frames/work_line.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(WorkLine, EachItemIsWorkedOnce) {
   for (const std::atomic<int>& count : times) EXPECT_EQ(count, 1);
 }
 
-// Two threads hold an item each, three wait: the sixth put does not return.
+// Two threads hold an item each, and three items wait. The sixth put does not return.
 TEST(WorkLine, PutWaitsWhileTheLineIsFull) {
   std::atomic<bool> go = false;
   std::atomic<int> put = 0;
@@ -58,7 +58,7 @@ TEST(WorkLine, PutWaitsWhileTheLineIsFull) {
     for (int t = 0; t < 200 && put < 5; ++t) std::this_thread::sleep_for(5ms);
     std::this_thread::sleep_for(50ms);
     EXPECT_EQ(put, 5);
-    EXPECT_EQ(token.use_count(), 1 + 6);  // five, and the one that putter holds
+    EXPECT_EQ(token.use_count(), 1 + 6);  // five items, and the one that `putter` holds
     go = true;
     go.notify_all();
     putter.join();
@@ -76,7 +76,7 @@ std::string message_of(const std::function<void()>& call) {
   return "nothing";
 }
 
-// Items 3 and 4 fail while both are in work, either of them late. Whoever asks hears of item 3.
+// Items 3 and 4 fail while both are in work, either of them late. A caller hears of item 3.
 TEST(WorkLine, TheFirstErrorInOrderCounts) {
   for (const int late : {3, 4})
     for (const int threads : {0, 1, 3}) {

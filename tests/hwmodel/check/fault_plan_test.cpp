@@ -1,4 +1,4 @@
-// The list of faults and the plan of one of them, for any machine.
+// The list of faults and the plan of one of them serve any machine.
 #include "hwmodel/check/fault_plan.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr Row kFirst{Fault::first, "first-one", "a", "x"}, kSecond{Fault::second
     kThird{Fault::third, "third", "c", "z"};
 constexpr std::array kAll{kFirst, kSecond, kThird};
 
-// What a table lacks, has twice or has in another order is seen when it is compiled.
+// If a table lacks a fault, has it twice or has another order, the compiler notices.
 static_assert(lists_all(kAll));
 static_assert(!lists_all(std::array{kFirst, kSecond}));
 static_assert(!lists_all(std::array{kFirst, kThird}));

@@ -1,4 +1,4 @@
-// Machines as sources of tokens: two models beside each other, a model beside its trace, and traces that lie.
+// Machines are sources of tokens: two models run beside each other, a model beside its trace, and traces lie.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 using Kind = TokenDifference::Kind;
 
-// A world of the paper's law in which matter falls, without radiation.
+// Finds a world of the paper's law in which matter falls, without radiation.
 Start falling() {
   for (std::uint64_t seed = 0;; ++seed) {
     Start start = hostile_start(seed, rule::Law::paper, {7, 6, 5});
@@ -38,7 +38,7 @@ Start falling() {
   }
 }
 
-// A pipeline that runs one pass of two time steps.
+// Holds a pipeline that runs one pass of two time steps.
 struct Streamed {
   explicit Streamed(const Start& the_start, std::uint64_t stall_seed = 0, const StageMaker& make = make_stage)
       : start(the_start),
@@ -60,14 +60,14 @@ TokenTrace trace_of(const Start& start) {
   return recorder.trace();
 }
 
-// Through a file and back.
+// Writes a trace to a file and reads it back.
 TokenTrace copied(const TokenTrace& trace) {
   std::stringstream file;
   write_trace(trace, file);
   return read_trace(file);
 }
 
-// A trace in the place of the machine, beside a live one.
+// Plays a trace in the place of one machine, beside a live one.
 std::optional<TokenDifference> beside_machine(const TokenTrace& trace, const Start& start, Compared how) {
   TracePlayer player(trace);
   Streamed live(start);
@@ -164,7 +164,7 @@ TEST(Tokens, ALateATooManyAndAMissingTokenAreNamed) {
   EXPECT_EQ(found_other->kind, Kind::channel);
 }
 
-// The machine with a fault beside the one without: the first wrong token leaves the stage of the fault.
+// The machine with a fault runs beside the one without. The first wrong token leaves the stage of the fault.
 TEST(Tokens, APlantedFaultShowsBehindItsStage) {
   const Start start = falling();
   int found = 0;
@@ -215,7 +215,7 @@ TEST(Tokens, ALineThatIsNoneHasItsNumber) {
   EXPECT_EQ(read_trace(file).events.size(), 2U) << "cycles begin anew in a train";
 }
 
-// The ray caster is another source: a picture beside its own trace.
+// The ray caster is another source: a picture is drawn beside its own trace.
 class Drawn {
  public:
   explicit Drawn(std::uint64_t seed) : picture_(test::hostile_picture(seed, 500)), uploader_(c_) {

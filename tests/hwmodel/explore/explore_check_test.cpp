@@ -1,4 +1,4 @@
-// A point that computes wrong bits is not verified; the file of sized channels says the machine.
+// A point that computes wrong bits is not verified. The file of sized channels describes the machine.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// A vent that brings more energy than a cell can hold: no scene file can say so, but the wire notices.
+// A vent brings more energy than a cell can hold. No scene file can say so, but the wire notices.
 TEST(ExploreCheck, APointThatFailsIsNotVerified) {
   Question question;
   question.grid = {4, 4, 4};

@@ -1,4 +1,4 @@
-// The closed forms of hwmodel/explore: time on a DRAM beside its simulation, and memories by hand.
+// The closed forms of hwmodel/explore are compared with the simulation of a DRAM, and with memories by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-// A scene with heat and radiation, of which only the shape matters.
+// Makes a scene with heat and radiation. Only its shape matters.
 TimedRun timed(int lanes, int cascade, std::int64_t steps) {
   TimedRun run;
   run.parameters.heat.enabled = run.parameters.heat.radiation = true;
@@ -35,10 +35,10 @@ TimedRun timed(int lanes, int cascade, std::int64_t steps) {
   return run;
 }
 
-// What the memory holds, and how.
+// Names the contents of the memory and their format.
 enum class Kind { lit, dark, coded, tiles };
 
-// A ball of matter, lit all over.
+// Makes a ball of matter. It is lit all over.
 state::Volume ball(state::Grid grid) {
   state::Volume volume(grid);
   worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
@@ -106,22 +106,22 @@ TEST(Explore, ThePipelineWithoutIrradianceOnAMemory) { expect_predicted(Kind::da
 TEST(Explore, TheCodedPipelineOnAMemory) { expect_predicted(Kind::coded, 10); }
 TEST(Explore, ThePipelineInTilesOnAMemory) { expect_predicted(Kind::tiles, 10); }
 
-// Streams so many stretches apart: one bank of the row after 16, for its number is added to the bank; the
-// four banks of a row are different ones.
+// Two streams lie so many stretches apart. After 16 stretches they meet in one bank, as the row's number is
+// added to the bank. The four banks of a row are different ones.
 TEST(Explore, StreamsMeetInABank) {
   const memory::Parameters hbm = load_memory("hbm2", "test");  // a stretch: 4 groups, 16 bursts each
   EXPECT_EQ(meeting(0, hbm), 0) << "one row";
   EXPECT_EQ(meeting(16 * 64, hbm), 1);
   EXPECT_EQ(meeting(-16 * 64, hbm), 1);
-  // Rows 0 to 3 lie in the banks 0123, 1032, 2301, 3210, and then again.
+  // Rows 0 to 3 lie in the banks 0123, 1032, 2301, 3210, and then the order begins again.
   EXPECT_EQ(meeting(64, hbm), 2 / 16.);
   EXPECT_EQ(meeting(2 * 64, hbm), 0);
   EXPECT_EQ(meeting(3 * 64, hbm), 6 / 16.);
   EXPECT_EQ(meeting(2.5 * 64, hbm), 3 / 16.);
 }
 
-// Every channel is as shallow as it can be: one token less anywhere costs cycles, with stalls, and on a
-// memory.
+// Every channel is as shallow as it can be: one token less anywhere costs cycles. This holds with stalls, and
+// on a memory.
 TEST(Explore, OneTokenLessAnywhereCostsCycles) {
   for (const bool on_memory : {false, true}) {
     TimedRun run = timed(4, 2, 4);
@@ -164,7 +164,7 @@ TEST(Explore, OneTokenLessAnywhereCostsCycles) {
   }
 }
 
-// Where sub-steps are counted from the state, a step is known when the one before it has been written.
+// If sub-steps are counted from the state, a step is known when the one before it has been written.
 TEST(Explore, PassesOverlapWhereTheirStepsAreKnown) {
   Design design{{}, {{8, 8, 8}, 4}};
   design.parameters.flow.law = rule::Law::viscous;
@@ -181,19 +181,19 @@ TEST(Explore, PassesOverlapWhereTheirStepsAreKnown) {
 
 TEST(Explore, MemoriesTakeTheShapeThatFits) {
   const Family family = load_device("zu7ev", {}).family;
-  // 127 words of 268 bits: 8 halves of 512 x 36, 4 URAMs of 72 bits; LUTs: 2 deep, 39 wide, 8 each, and a
-  // choice of two per bit.
+  // 127 words of 268 bits take 8 halves of 512 x 36, or 4 URAMs of 72 bits. In LUTs they are 2 deep and 39
+  // wide at 8 each, and every bit needs a choice of two.
   const std::vector<MemoryUse> shallow = ways_to_hold(127, 268, family);
   ASSERT_EQ(shallow.size(), 3U);
   EXPECT_EQ(shallow[0].lutram, 2 * 39 * 8 + 268);
   EXPECT_EQ(shallow[1].parts, 8);
   EXPECT_EQ(shallow[2].uram, 4);
-  // 3302 words of 268 bits: 7 x 8 halves of 512 x 36; others take 60 and more. 4 URAMs.
+  // 3302 words of 268 bits take 7 x 8 halves of 512 x 36 (other shapes take 60 and more), or 4 URAMs.
   const std::vector<MemoryUse> deep = ways_to_hold(3302, 268, family);
   ASSERT_EQ(deep.size(), 2U);  // too deep for LUTs
   EXPECT_EQ(deep[0].parts, 56);
   EXPECT_EQ(deep[1].uram, 4);
-  // 2048 words of 8 bits: one half of 2048 x 9.
+  // 2048 words of 8 bits take one half of 2048 x 9.
   EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
 }
 

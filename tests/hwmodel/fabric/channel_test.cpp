@@ -1,4 +1,4 @@
-// The parts of the pipeline: channels, their stalls, line buffers, column memories, wires.
+// The parts of the pipeline are tested alone: channels, their stalls, line buffers, column memories, wires.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -33,7 +33,7 @@ TEST(Channel, HoldsAsManyTokensAsItIsDeep) {
   }
 }
 
-// Otherwise the order in which blocks are evaluated would matter.
+// If it did, the order in which blocks are evaluated would matter.
 TEST(Channel, NothingShowsBeforeTheCycleEnds) {
   Fifo<int> fifo = channel(1);
   *fifo.put() = 7;
@@ -48,17 +48,17 @@ TEST(Channel, NothingShowsBeforeTheCycleEnds) {
 
 TEST(Channel, CountsItsCyclesByOccupancy) {
   Fifo<int> fifo = channel(3);
-  fifo.commit();  // 0
+  fifo.commit();  // occupancy 0
   for (int i = 0; i < 2; ++i) {
     fifo.put();
     fifo.commit();
-  }  // 1, 2
+  }  // occupancies 1, 2
   for (int i = 0; i < 2; ++i) {
     fifo.get();
     fifo.commit();
-  }  // 1, 0
+  }  // occupancies 1, 0
   fifo.put();
-  fifo.commit();  // 1
+  fifo.commit();  // occupancy 1
   EXPECT_EQ(fifo.occupancy(), (std::vector<std::int64_t>{2, 3, 1, 0}));
   EXPECT_EQ(fifo.highest(), 2);
   EXPECT_EQ(fifo.count(), 1);
@@ -96,7 +96,7 @@ TEST(Channel, TokensAreNumberedFromTheBeginOfAPass) {
   EXPECT_EQ(seen.out, seen.in);
 }
 
-// The fractions of 100 000 cycles that refuse to put, to get, and both.
+// Holds the fractions of 100 000 cycles that refuse to put, to get, and both.
 struct Refusals {
   double put = 0, get = 0, both = 0;
   std::vector<bool> puts;
@@ -128,7 +128,7 @@ TEST(Stalls, EachSideRefusesOneCycleInFourApartFromTheOther) {
   EXPECT_EQ(refusals(0, 5).put + refusals(0, 5).get, 0) << "seed 0 stalls";
 }
 
-// However many tokens it holds, a stalled channel refuses each side.
+// A stalled channel refuses each side as often, however many tokens it holds.
 TEST(Stalls, AChannelRefusesOneCycleInFourHoweverFullItIs) {
   for (const int tokens : {1, 2, 3}) {
     Fifo<int> fifo{"channel", 3, 1, 4, 7};

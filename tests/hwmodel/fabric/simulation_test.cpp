@@ -1,4 +1,4 @@
-// Machines in one simulation: jobs, cycles, and what ends them.
+// Several machines share one simulation: their jobs, their cycles, and the ends of their jobs.
 #include "hwmodel/fabric/simulation.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// A machine of one block that counts its cycles; its job takes `length` of them.
+// A machine of one block counts its cycles. Its job takes `length` of them.
 class Counter {
  public:
   Counter(Simulation& simulation, const char* name) : part(simulation) {
@@ -58,7 +58,7 @@ TEST(Simulation, AJobTakesItsCyclesAndTheOthersGoOn) {
   EXPECT_EQ(ticks, 10);
 
   a.counted = 0;
-  simulation.begin(a.part);  // in the next cycle: b does not notice
+  simulation.begin(a.part);  // from the next cycle on; b does not notice
   simulation.run(a.part);
   EXPECT_EQ(a.seen.size(), 20u);
   EXPECT_EQ(a.seen[10], 0) << "its cycles count from 0 again";
@@ -109,7 +109,7 @@ TEST(Simulation, AJobEndsWhereItHangsIsStoppedOrBreaks) {
   EXPECT_NO_THROW(b.part.rethrow());
 }
 
-// What enters a channel in a cycle leaves it in the next one, whichever block runs first.
+// A token that enters a channel in a cycle leaves it in the next one, whichever block runs first.
 TEST(Simulation, ChannelsCommitBetweenCycles) {
   for (const bool consumer_first : {false, true}) {
     Simulation simulation;

@@ -1,5 +1,5 @@
-// Every fault of both machines, planted in the whole machine, is found where it was planted, while both run
-// in one simulation on one memory.
+// Both machines run in one simulation on one memory. Every fault of either, planted there, is found where it
+// was planted.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -33,7 +33,7 @@ std::string identifier(std::string_view name) {
   return text;
 }
 
-// Of the pipeline, in a proving ground with pictures of 16 x 16.
+// Plants the pipeline's faults in a proving ground, with pictures of 16 x 16.
 class PlantedInStream : public testing::TestWithParam<FaultInfo> {};
 
 MachineReport prove(const std::string& name, Fault fault, bool on_dram) {
@@ -74,7 +74,7 @@ TEST_P(PlantedInStream, IsFoundWhereItWasPlanted) {
   EXPECT_GT(struck, 0) << "it strikes nowhere";
 }
 
-// A picture may be drawn of anything; the automaton knows no air that holds something.
+// Empties air. A picture may be drawn of anything, but the automaton knows no air that holds something.
 state::Volume with_empty_air(state::Volume volume) {
   worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
     if (volume.solid.test(x, y, z) || volume.liquid.test(x, y, z) || volume.inert.test(x, y, z)) return;
@@ -85,7 +85,8 @@ state::Volume with_empty_air(state::Volume volume) {
   return volume;
 }
 
-// Of the ray caster, in pictures in which it strikes; the pipeline computes two steps of their matter.
+// Plants the ray caster's faults in pictures in which they strike. The pipeline computes two steps of their
+// matter.
 class PlantedInScreen : public testing::TestWithParam<raycast::FaultInfo> {};
 
 TEST_P(PlantedInScreen, IsFoundWhereItWasPlanted) {
@@ -123,7 +124,7 @@ TEST_P(PlantedInScreen, IsFoundWhereItWasPlanted) {
   EXPECT_TRUE(struck) << "it strikes nowhere";
 }
 
-// The quick tests take one of eight.
+// Chooses one fault of eight, for the quick tests.
 template <class Info>
 std::vector<Info> each_eighth(std::span<const Info> faults) {
   std::vector<Info> chosen;

@@ -1,4 +1,4 @@
-// The pipeline and the ray caster on one memory: bits, bytes, and the sums of cycles.
+// The pipeline and the ray caster share one memory. Their bits, their bytes and the sums of cycles are right.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST(Machine, CyclesAndBytesSumUp) {
   const std::int64_t tokens = std::int64_t{(g.x + 3) / 4} * g.y * g.z;
   std::int64_t cycles = 0, frames = report.first_frame, read = 0;
   for (const Period& period : report.periods) {
-    EXPECT_EQ(period.work.passes, 1);  // two steps, T = 2
+    EXPECT_EQ(period.work.passes, 1);  // two steps at a cascade of 2
     EXPECT_EQ(period.work.tokens, tokens);
     EXPECT_EQ(period.work.read_bits, tokens * 4 * 50);
     EXPECT_EQ(period.work.written_bits, tokens * 4 * 50);
@@ -107,7 +107,7 @@ TEST(Machine, CyclesAndBytesSumUp) {
     read += period.frame_read;
   }
   EXPECT_EQ(cycles, report.steps.cycles);
-  // The picture of the last state is drawn while the pipeline is idle: as by the ray caster alone.
+  // The picture of the last state is drawn while the pipeline is idle, so it takes as long as alone.
   EXPECT_EQ(frames + report.periods.back().frame, report.pictures.all_cycles);
   EXPECT_LT(read, report.pictures.memory.read_bytes);  // the first frame reads, too
   EXPECT_EQ(report.state_bytes, (tokens * 4 * 50 + 7) / 8);
@@ -124,8 +124,8 @@ TEST(Machine, CyclesAndBytesSumUp) {
   }
 }
 
-// The same picture, drawn alone and beside the pipeline: on a wide bus the neighbour costs next to nothing,
-// on a narrow one both wait.
+// The same picture is drawn alone and beside the pipeline. On a wide bus the neighbour costs next to nothing.
+// On a narrow one both wait.
 TEST(Machine, BothWaitForANarrowBus) {
   const Melt melt("bunny_small", 300);
   for (const bool narrow : {false, true}) {

@@ -1,4 +1,5 @@
-// The memory of a fixed latency, by hand: latency 10, and a bus of 64 bytes unless a test says otherwise.
+// The memory of a fixed latency is tested by hand. It has latency 10, and a bus of 64 bytes unless a test
+// says otherwise.
 #include "hwmodel/memory/fixed_latency.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ struct Client final : PortClient {
   std::vector<std::uint32_t> seen;
 };
 
-// Runs cycles until a reply is there; its number, counted from `now`.
+// Runs cycles until a reply is there, and returns the number of the cycle, counted from `now`.
 std::int64_t cycle_of_reply(FixedLatency& memory, int port, std::int64_t& now) {
   for (; memory.reply(port) == nullptr; ++now) memory.cycle();
   memory.take(port);
@@ -25,7 +26,7 @@ TEST(FixedLatency, ALineTakesItsLatencyAndItsCyclesOfTheBus) {
   FixedLatency memory(10, 64);
   Client client;
   const int port = memory.open_port(&client);
-  memory.put(port, {0, 1, false, 64});  // in cycle 0: one cycle of the bus behind the latency
+  memory.put(port, {0, 1, false, 64});  // in cycle 0: one cycle of the bus after the latency
   std::int64_t now = 0;
   EXPECT_EQ(cycle_of_reply(memory, port, now), 11);
   memory.put(port, {0, 2, false, 130});  // three cycles of the bus
@@ -50,7 +51,7 @@ TEST(FixedLatency, WhatAClientAskedForReturnsInItsOrderAndOneACycle) {
   Client client;
   const int first = memory.open_port(&client), second = memory.open_port(&client);
   memory.put(second, {0, 2, false, 64});
-  memory.put(first, {0, 1, false, 64});  // of one cycle the first port is served first
+  memory.put(first, {0, 1, false, 64});  // within a cycle, the first port is served first
   for (int i = 0; i < 30; ++i) memory.cycle();
   EXPECT_EQ(memory.reply(second), nullptr) << "it comes behind that of the first port";
   ASSERT_NE(memory.reply(first), nullptr);
@@ -63,7 +64,7 @@ TEST(FixedLatency, WhatAClientAskedForReturnsInItsOrderAndOneACycle) {
   EXPECT_TRUE(memory.idle());
 }
 
-// Three bursts of 64 bytes are two cycles of 96.
+// Three bursts of 64 bytes take two cycles of 96.
 TEST(FixedLatency, StreamsArePackedOnTheBus) {
   FixedLatency memory(10, 96);
   const int stream = memory.open_port(nullptr);
@@ -91,11 +92,11 @@ TEST(FixedLatency, AStreamWaitsForTheBus) {
     }
     memory.cycle();
   }
-  EXPECT_EQ(claimed, 80);  // after two cycles the bus is free from cycle 81 on: 69 behind the latency
+  EXPECT_EQ(claimed, 80);  // after two cycles the bus is free from cycle 81 on: 69 cycles beyond the latency
   EXPECT_FALSE(memory.ready(stream));
   EXPECT_TRUE(memory.ready(lines));
   for (int cycle = 3; cycle < 8; ++cycle) memory.cycle();
-  EXPECT_TRUE(memory.ready(stream));  // in cycle 8: 63
+  EXPECT_TRUE(memory.ready(stream));  // in cycle 8 only 63 are left
 }
 
 // 100 lines take four cycles each, until cycle 410. The stream's bursts stand behind them, one a cycle.
@@ -110,7 +111,7 @@ TEST(FixedLatency, AClientThatAsksForMuchKeepsNoStreamFromTheQueue) {
   memory.cycle();
   std::int64_t now = 2;
   for (; !memory.ready(stream); ++now) memory.cycle();
-  EXPECT_EQ(now, 407);  // what is promised 10 cycles ahead has come to 417: 63 are left
+  EXPECT_EQ(now, 407);  // the bus is promised until 480: 63 cycles beyond this one and the latency
 }
 
 }  // namespace

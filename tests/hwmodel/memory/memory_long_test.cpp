@@ -1,4 +1,4 @@
-// A hundred million commands, and no rule of a sheet is broken.
+// A hundred million commands break no rule of a sheet.
 #include <gtest/gtest.h>
 
 #include <cstdint>

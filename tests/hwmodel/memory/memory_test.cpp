@@ -1,4 +1,5 @@
-// The DRAM: commands and replies worked by hand from the sheet, traffic at random, and what it reaches.
+// The DRAM is tested by commands and replies worked by hand from the sheet, random traffic, and its
+// bandwidth.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,9 +43,9 @@ struct Served final : RequestListener {
 
 constexpr std::int64_t kNextGroup = 64, kNextColumn = 4 * 64, kNextRow = 64LL * 4 * 128 * 4;
 
-// Data end at 4, and those of a write come at 20, eight cycles after their command, for which a row was
-// opened. The request has waited since 2: of 16 cycles without data 6 are idle, and the turn is to blame for
-// the rest.
+// The first data end at 4. The write's data come at 20, eight cycles after their command, for which a row was
+// opened. The request has waited since 2: of the 16 cycles without data 6 are idle, and the turn is to blame
+// for the rest.
 TEST(Memory, ATurnIsToBlameBeforeARow) {
   BusAccount account;
   Counts counts;
@@ -60,7 +61,8 @@ TEST(Memory, ATurnIsToBlameBeforeARow) {
 
 TEST(Memory, WhereABurstLies) {
   const Parameters p = sheet("ddr4-2400");
-  // Groups first, then 128 bursts of a row, then banks, then rows: a row adds to bank and group.
+  // The address counts groups first, then 128 bursts of a row, then banks, then rows. A row's number is added
+  // to bank and group.
   const Location a = locate(3 * 64 + 5 * kNextColumn, p);
   EXPECT_EQ(a.group, 3);
   EXPECT_EQ(a.column, 5 * 8);
@@ -87,7 +89,8 @@ TEST(Memory, ReadsWorkedByHand) {
   Recorder recorder;
   dram.listen(&recorder);
   const int port = dram.open_port(nullptr);
-  // The first row; another group of it; again the first group; another row in the first one's bank.
+  // The requests go to the first row, another group of it, the first group again, and another row in that
+  // bank.
   for (const std::int64_t address : {std::int64_t{0}, kNextGroup, kNextColumn, 4 * kNextRow ^ 0})
     dram.put(port, {address, static_cast<std::uint32_t>(address), false});
   ASSERT_EQ(locate(4 * kNextRow, dram.parameters()).bank, 0);
@@ -100,10 +103,11 @@ TEST(Memory, ReadsWorkedByHand) {
       dram.take(port);
     }
   }
-  // ACT 0 and, tRRD_S later, ACT 4. RD 17 after tRCD, RD 21 likewise. The third: tCCD_L after 17 is 23,
-  // tCCD_S after 21 is 25. The row in the second bank closes tRAS after 4; ACT 60 after tRP; RD 77.
+  // ACT comes at 0 and, tRRD_S later, at 4. RD follows at 17 after tRCD, and likewise at 21. For the third,
+  // tCCD_L after 17 is 23 and tCCD_S after 21 is 25. The row in the second bank closes tRAS after 4. ACT
+  // comes at 60 after tRP, and RD at 77.
   EXPECT_EQ(words(recorder.all), "ACT 0; ACT 4; RD 17; RD 21; RD 25; PRE 43; ACT 60; RD 77; ");
-  // Replies 17 + 4 + 24 later: memory cycles 62, 66, 70, 122, six of them in a cycle.
+  // Replies come 17 + 4 + 24 later, in memory cycles 62, 66, 70, 122. Six of these make a cycle of the port.
   EXPECT_EQ(replied, (std::vector<std::int64_t>{11, 11, 12, 21}));
   const Counts counts = dram.counts();
   EXPECT_EQ(counts.hits, 1);
@@ -118,7 +122,7 @@ TEST(Memory, ReadsWorkedByHand) {
   EXPECT_EQ(counts.cycles(), 39 * 6);
 }
 
-// Four groups, and a second bank of the first one: five ACT take tFAW.
+// Four groups are opened, and a second bank of the first one: five ACT take tFAW.
 TEST(Memory, FourRowsAreOpenedInTheirWindow) {
   Dram dram(sheet("ddr4-2400"), 200);
   Recorder recorder;
@@ -130,7 +134,7 @@ TEST(Memory, FourRowsAreOpenedInTheirWindow) {
   EXPECT_EQ(words(recorder.all), "ACT 0; ACT 4; ACT 8; ACT 12; RD 17; RD 21; RD 25; ACT 26; RD 29; RD 43; ");
 }
 
-// A B A of one bank: its open row goes first, then it closes.
+// Requests go to rows A B A of one bank. Its open row is served first, then it closes.
 TEST(Memory, AnOpenRowServesItsHitsBeforeItCloses) {
   Dram dram(sheet("ddr4-2400"), 200);
   Recorder recorder;
@@ -143,8 +147,7 @@ TEST(Memory, AnOpenRowServesItsHitsBeforeItCloses) {
   EXPECT_EQ(recorder.all.back().row, 16);
 }
 
-// The same while hits of other groups, which came before, keep the bus: from 39 on tRAS would let the row
-// close.
+// The same holds while earlier hits of other groups keep the bus. From 39 on, tRAS would let the row close.
 TEST(Memory, ARowWithAWaitingHitStaysOpen) {
   Dram dram(sheet("ddr4-2400"), 200);
   Recorder recorder;
@@ -197,13 +200,13 @@ TEST(Memory, WritesAndTurnaroundWorkedByHand) {
   for (int i = 0; i < 9; ++i) dram.cycle();
   dram.put(port, {kNextColumn, 2, false});  // memory cycle 54
   for (int i = 0; i < 20; ++i) dram.cycle();
-  // A lone write waits 32 cycles for reads. WR 49; its data end at 65, and RD of its group follows tWTR_L
-  // later.
+  // A lone write waits 32 cycles for reads. WR is the command at 32, its data end at 48, and RD of its group
+  // follows tWTR_L later.
   EXPECT_EQ(words(recorder.all), "ACT 0; WR 32; RD 57; ");
   EXPECT_EQ(dram.counts().write_to_read, 1);
   EXPECT_EQ(dram.counts().worst_write, 32);
-  // Written data lie at 44 .. 47; the read came in 54, its data lie at 74 .. 77, 17 later than they might at
-  // once.
+  // Written data lie at 44 .. 47. The read came in 54, and its data lie at 74 .. 77, 3 later than they might
+  // at once.
   EXPECT_EQ(dram.counts().turnaround, 3);
   ASSERT_NE(dram.reply(port), nullptr);
   EXPECT_EQ(dram.reply(port)->id, 2u);
@@ -236,14 +239,14 @@ TEST(Memory, RefreshWorkedByHand) {
   for (int i = 0; i < 140; ++i) dram.cycle();
   dram.put(port, {16 * kNextRow, 3, false});  // memory cycle 10200: another row
   for (int i = 0; i < 1500; ++i) dram.cycle();
-  // The row is closed at once; REF after tRP, ACT after tRFC. The next refresh counts from when this one was
-  // due.
+  // The row is closed at once. REF follows after tRP, and ACT after tRFC. The next refresh counts from when
+  // this one was due.
   EXPECT_EQ(words(recorder.all),
             "ACT 0; RD 17; PREA 9360; REF 9377; ACT 9797; RD 9814; PRE 10200; ACT 10217; RD 10234; "
             "PREA 18720; REF 18737; ");
   EXPECT_EQ(dram.counts().refreshes, 2);
-  EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency is idle time
-  EXPECT_EQ(dram.counts().row, 17 + 34);          // the first ACT; PRE and ACT of the third read
+  EXPECT_EQ(dram.counts().refresh, 9814 - 9360);  // until RD; its latency counts as idle
+  EXPECT_EQ(dram.counts().row, 17 + 34);          // the first ACT, then PRE and ACT of the third read
 }
 
 TEST(Memory, AnIdleMemoryIsRefreshedOnTime) {
@@ -265,7 +268,7 @@ TEST(Memory, ClocksDoNotDrift) {
   }
 }
 
-// Requests to the same few bursts: each read finds what was written last before it was taken.
+// Requests go to the same few bursts. Each read finds the last value written before it was taken.
 struct Bytes final : PortClient, RequestListener {
   void taken(std::int64_t, const Request& request) override {
     if (request.write)
@@ -319,7 +322,7 @@ TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
   }
 }
 
-// A stream of row hits, and one request that wants another row of the same bank.
+// A stream of row hits meets one request that wants another row of the same bank.
 TEST(Memory, NoRequestStarves) {
   const auto worst = [](int starve) {
     Policy policy;

@@ -1,4 +1,5 @@
-// Requests at random for a DRAM: streams, lone bursts, rows of one bank, the same few bursts again and again.
+// Makes random requests for a DRAM: streams, lone bursts, rows of one bank, the same few bursts over and
+// over.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,7 @@ class Traffic {
       dram_.cycle();
     }
   }
-  // Takes replies until nothing is left; false: it takes far too long.
+  // Takes replies until nothing is left, and returns false if it takes far too long.
   bool drain() {
     for (int i = 0; i < 100000 && !dram_.idle(); ++i) {
       for (Port& port : ports_)
@@ -66,7 +67,7 @@ class Traffic {
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(high - low + 1));
   }
-  // Another habit.
+  // Gives a port another habit.
   void turn(Port& port) {
     const Parameters& p = dram_.parameters();
     port.kind = static_cast<int>(between(0, 3));
@@ -74,7 +75,8 @@ class Traffic {
     port.writes = static_cast<int>(between(0, 4)) * 25;
     port.left = static_cast<int>(between(1, 400));
     port.at = between(0, p.bytes() / kBurst - 1) * kBurst;
-    const std::int64_t row = p.row_bytes() * p.banks_of_rank() * p.ranks * p.channels;  // to the next row
+    // This many bytes lead to the next row.
+    const std::int64_t row = p.row_bytes() * p.banks_of_rank() * p.ranks * p.channels;
     port.step = port.kind == 0 ? kBurst : port.kind == 1 ? row * (std::int64_t{1} << between(0, 6)) : 0;
   }
   void put(Port& port) {

@@ -1,7 +1,8 @@
-// Replays a trace of requests on a DRAM, as fast as its controller takes them, and prints the cycles. Beside
-// it, the same requests are written with addresses that lie in the same bank, row and column for Ramulator's
-// order (row, bank, group, rank, column, channel), so that its cycles can be compared
+// Replays a trace of requests on a DRAM, as fast as its controller takes them, and prints the cycles.
+// It also writes the same requests for Ramulator. Their addresses lie in the same bank, row and column in
+// Ramulator's order (row, bank, group, rank, column, channel). So its cycles can be compared
 // (docs/hardware/memory.md).
+//
 //   replay_trace MEMORY IN.trace OUT.trace      lines: 0x00001240 R
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ std::int64_t for_ramulator(const Location& at, const Parameters& p) {
   return (burst * p.channels + at.channel) * kBurst;
 }
 
-// By one port, at the memory's own clock.
+// Sends the requests by one port, at the memory's own clock.
 void run(const std::vector<Request>& requests, const Parameters& p) {
   Dram dram(p, p.mhz);
   const int port = dram.open_port(nullptr);

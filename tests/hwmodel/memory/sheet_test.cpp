@@ -1,4 +1,4 @@
-// Files of memories: what they say arrives, and what is wrong in them is refused at its place.
+// A memory's file arrives with all that it says, and errors in it are refused at their place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ const std::string& text_of(const std::string& name) {
     if (file.name == name) return file.text;
   throw std::logic_error("no file " + name);
 }
-// What `load_memory` says of the file with one text in place of another.
+// Returns the complaint of `load_memory` about the file with one text in place of another.
 std::string complaint(const std::string& old, const std::string& now) {
   std::string text = text_of("ddr4-2400");
   const std::size_t at = text.find(old);

@@ -1,5 +1,5 @@
-// The checker of command timing: each rule by two streams written by hand, one that just keeps it and one
-// that is a cycle too early; and controllers with one number shortened.
+// The checker of command timing meets two streams by hand for each rule: one just keeps it, and one is a
+// cycle too early. It also watches controllers with one number shortened.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -77,10 +77,10 @@ TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
        Kind::read,
        kOtherGroup,
        140 + 12 + 4 + 3},
-      // Read data lie at 157 .. 160; written data may follow from 163 on, 12 cycles behind their command.
+      // Read data lie at 157 .. 160. Written data may follow from 163 on, 12 cycles after their command.
       {"read to write", {act(100, kA), read(140, kA)}, Kind::write, kA, 151},
       {"rank switch", {act(100, kA), act(101, kOtherRank), read(140, kA)}, Kind::read, kOtherRank, 146},
-      // Written data lie at 152 .. 155; read data of the other rank from 158 on.
+      // Written data lie at 152 .. 155. Read data of the other rank may follow from 158 on.
       {"command bus, rank switch",
        {act(100, kA), act(101, kOtherRank), write(140, kA)},
        Kind::read,
@@ -130,7 +130,7 @@ TEST(TimingChecker, RefreshesThatNeverComeAreMissed) {
   EXPECT_EQ(checker.violations(), 1);
 }
 
-// A controller that believes in a number that is shorter than the sheet's.
+// Describes a controller that believes in a number which is shorter than the sheet's.
 struct Planted {
   const char* rule;
   std::function<void(Parameters&)> plant;
@@ -138,8 +138,8 @@ struct Planted {
 
 TEST(TimingChecker, FindsEveryPlantedTimingError) {
   Parameters ddr4 = two_ranks(), lpddr4 = sheet("lpddr4-3200"), hbm = sheet("hbm2");
-  ddr4.rc = 60;      // else it follows from tRAS and tRP
-  ddr4.rp_all = 19;  // likewise from tRP
+  ddr4.rc = 60;      // otherwise tRC follows from tRAS and tRP
+  ddr4.rp_all = 19;  // otherwise it follows from tRP
   const std::vector<Planted> planted{
       {"tRCD", [](Parameters& p) { --p.rcd; }},
       {"tRP", [](Parameters& p) { --p.rp; }},

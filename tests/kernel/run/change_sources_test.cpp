@@ -1,5 +1,6 @@
-// Sources, vents and drains that are changed between steps: the same bits as a scene that said so from the
-// start, by keyframes and by from and until. Every implementation, threads, asleep and awake.
+// Sources, vents and drains are changed between steps. The bits are those of a scene that said so from the
+// start, by keyframes and by from and until. This holds for every implementation, with threads, asleep and
+// awake.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,7 +14,7 @@ namespace {
 using namespace worlds;
 using rule::Law;
 
-// A block on a floor, and much sleeping air around it.
+// Makes a block on a floor, and much sleeping air around it.
 Volume room() {
   Volume v(Grid{130, 14, 20});
   for_each({0, 0, 0, 130, 1, 20}, [&](int x, int y, int z) { put_inert(v, x, y, z); });
@@ -37,8 +38,9 @@ rule::Drain drain(std::uint32_t from, std::uint32_t until) {
   return {{{16 * 100, 16 * 2, 16 * 10}, 70}, 3000, from, until};
 }
 
-// By hand: before step 3 a vent opens; before 13 a lamp is lit, which shines from 16 on, the next step of
-// visibility; before 21 the lamp moves (24) and a drain takes the vent's place; before 37 all is gone (40).
+// Changes the sources by hand. Before step 3 a vent opens. Before 13 a lamp is lit, which shines from 16 on,
+// the next step of visibility. Before 21 the lamp moves (24) and a drain takes the vent's place. Before 37
+// all is gone (40).
 void change(Simulation& simulation) {
   const auto lamp = [](rule::Position at) { return rule::HeatSource{{{0, at, kPower}}}; };
   if (simulation.steps_done() == 3) simulation.change_sources({{}, {vent(0, 0xFFFFFFFFu)}, {}});
@@ -47,7 +49,7 @@ void change(Simulation& simulation) {
   if (simulation.steps_done() == 37) simulation.change_sources({});
 }
 
-// The same, said by a scene. Visibility looks at keyframes at steps 0, 8, 16 .. only.
+// A scene says the same. Visibility looks at keyframes at steps 0, 8, 16 .. only.
 Parameters said_by_the_scene(Law law) {
   Parameters p = quiet(law);
   p.vents = {vent(3, 21)};

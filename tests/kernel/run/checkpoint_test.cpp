@@ -1,4 +1,4 @@
-// Checkpoints, byte by byte: what is written is read again, and nothing else is.
+// Checkpoints are tested byte by byte: what is written is read again, and nothing else is.
 #include "kernel/run/checkpoint/checkpoint.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class CheckpointFile : public testing::Test {
   fs::path folder_, file_ = folder_ / "step_00000007.vxc";
 };
 
-// More than a word wide, and odd.
+// The volume is more than a word wide, and odd.
 Volume sample() {
   Volume v(Grid{70, 3, 5});
   put(v, 1, 0, 0, 0x1234, 0x0102, 0xFFFE);
@@ -70,7 +70,7 @@ Head sample_head() {
   head.run.irradiance_capped = 3;
   head.run.rays = 40;
   head.run.rays_cast = 4;
-  // Beyond 64 bits, of either sign: 10^30 and -2^100.
+  // These sums exceed 64 bits, with either sign: 10^30 and -2^100.
   head.run.ledger.mass.start = state::Sum{1'000'000'000'000'000} * 1'000'000'000'000'000;
   head.run.ledger.heat.rounded = -(state::Sum{1} << 100);
   head.run.ledger.energy.capped = 5;
@@ -110,7 +110,7 @@ TEST_F(CheckpointFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing is left beside it";
 }
 
-// What looks empty at first sight: all in the last row of a slab, and rows of equal bytes.
+// These slabs look empty at first sight: one has all in its last row, and one has rows of equal bytes.
 TEST_F(CheckpointFile, AlmostEmptySlabsAreKept) {
   Volume last(Grid{64, 3, 5}), even(Grid{64, 3, 5});
   put_solid(last, 9, 2, 4, 4096, 7);
@@ -156,7 +156,7 @@ TEST_F(CheckpointFile, NoShorterOrLongerFileIsRead) {
   EXPECT_NO_THROW(read(file_));
 }
 
-// Blocks that are whole, in another order or of another run.
+// The blocks are whole, but in another order or from another run.
 TEST_F(CheckpointFile, BlocksKeepTheirPlaces) {
   {
     BlockWriter writer(file_);

@@ -1,5 +1,5 @@
-// A device stepper: the run loop with a state in the stepper's own memory. The device here is the reference
-// behind a wall: it hides its state, and counts what is asked of it.
+// With a device stepper the run loop's state is in the stepper's own memory. The device here is the reference
+// behind a wall: it hides its state, and counts the requests.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -76,7 +76,7 @@ class HiddenReference : public step::DeviceStepper {
   state::Ledger ledger_;
 };
 
-// One that knows which rows of bricks it has changed since it was last asked.
+// This device knows the rows of bricks that it has changed since it was last asked.
 class TellingReference final : public HiddenReference {
  public:
   using HiddenReference::HiddenReference;
@@ -108,7 +108,8 @@ const step::Implementation kTelling{
       return std::make_unique<TellingReference>(parameters, grid);
     }};
 
-// "step 10 digest 38ec6dd4b2ee9cb7 mass ..." of the approved digests; the oracle agrees with them.
+// The approved digests have lines such as "step 10 digest 38ec6dd4b2ee9cb7 mass ...". The oracle agrees with
+// them.
 std::uint64_t approved_digest(const std::string& scene) {
   std::ifstream file(VOXMELT_APPROVED_DIGESTS);
   const std::string line = nlohmann::json::parse(file).at(scene).at("10");
@@ -181,7 +182,8 @@ TEST(Device, GoesOnFromWhatTheHostHasChanged) {
   EXPECT_EQ(HiddenReference::traffic.uploads, 2);
 }
 
-// The block melts in the bricks z < 16. What follows the volume of a device that tells need not look beyond.
+// The block melts in the bricks z < 16. If the device tells its changes, a follower of its volume need not
+// look beyond.
 TEST(Device, TellsItsChangesThroughTheOneInterface) {
   Volume start(Grid{16, 12, 64});
   for_each({5, 2, 5, 11, 10, 11}, [&](int x, int y, int z) { put_solid(start, x, y, z, kOne, 25000); });

@@ -1,4 +1,4 @@
-// The run loop: repeatable, phases in the order said, melting and visibility at the right step.
+// The run loop is repeatable, runs its phases in order, and melts and looks for visibility at the right step.
 #include "kernel/run/simulation.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Simulation, ARunThatBeginsInTheMiddleGoesOnTheSame) {
       p.heat.sources = {{{{0, {16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 31},
                           {60, {-16 * 20, 16 * 12, 16 * 8}, std::uint64_t{1} << 33}}}};
       Simulation through(p, block(), implementation);
-      for (int i = 0; i < 40; ++i) through.step();  // to a step of visibility
+      for (int i = 0; i < 40; ++i) through.step();  // up to a step of visibility
       Simulation from_there(p, through.volume(), implementation);
       from_there.begin_at(40);
       const Volume middle = through.volume();
@@ -89,7 +89,7 @@ TEST(Simulation, TheSeedChangesThePaperLawOnly) {
   }
 }
 
-// Records what it is asked to do.
+// Records the calls of its functions.
 class Recorder final : public step::HostStepper {
  public:
   void change_sources(const Parameters&) override {}
@@ -161,7 +161,7 @@ TEST(Simulation, SubstepsSettleAndSpreadAndFallOnce) {
   }
 }
 
-// Columns of 1, 2 and 3 cells: mobility 2/9 x 0.1 x M^2 against 1/5 / (M + 1), so 0.22, 1.33 and 4.
+// The columns have 1, 2 and 3 cells. Mobility 2/9 x 0.1 x M^2 against 1/5 / (M + 1) gives 0.22, 1.33 and 4.
 TEST(Simulation, CountsTheSubstepsThatItsDeepestColumnNeeds) {
   Parameters p = viscous(0.1);
   p.flow.viscous.substeps = 0;
@@ -207,7 +207,7 @@ TEST(Simulation, RaysToALampGoByTheSeedOfTheRun) {
   EXPECT_FALSE(*s.irradiance() == cast_with(1)) << "the seed does not matter";
 }
 
-// What has melted since the last step of visibility is not seen before the next one.
+// Cells that melted after the last step of visibility are not seen before the next one.
 TEST(Simulation, ResumedBetweenStepsOfVisibilityItKeepsTheLight) {
   Parameters p = hot_parameters(Law::viscous);
   p.heat.visibility_every = 20;

@@ -1,4 +1,4 @@
-// Bad scenes end in one clear line with its place; none is accepted, crashes or hangs.
+// Bad scenes end in one clear line with its place. None is accepted, crashes or hangs.
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -21,7 +21,7 @@ struct Case {
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
-      // The document itself.
+      // The document itself is wrong.
       {"", "scene.toml:1:1: error: grid.size is missing"},
       {"[grid", "scene.toml:1:6: error: "},
       {"[grid]\nsize = [8, 8, 8]\nsize = [8, 8, 8]\n", "scene.toml:3:8: error: "},
@@ -31,14 +31,14 @@ const std::vector<Case>& cases() {
       {kGrid + "solid = []\n", "scene.toml:3:1: error: unknown key grid.solid"},
       {kBox + "extends = 3\n", "scene.toml:7:1: error: unknown key solid.0.extends"},
       {"extends = 3\n" + kBox, "scene.toml:1:11: error: extends must be the name of a scene file"},
-      // Keys.
+      // Keys are wrong.
       {"tittle = \"x\"\n" + kBox, "scene.toml:1:1: error: unknown key tittle; did you mean title?"},
       {kBox + "[heat]\ngama = 0.1\n",
        "scene.toml:8:1: error: unknown key heat.gama; did you mean heat.gamma?"},
       {kBox + "[hete]\n", "scene.toml:7:2: error: unknown key hete; did you mean heat?"},
       {"[grid]\nsiez = [8, 8, 8]\n", "scene.toml:2:1: error: unknown key grid.siez; did you mean grid.size?"},
       {kBox + "qqqqqqqqqqqq = 1\n", "scene.toml:7:1: error: unknown key solid.0.qqqqqqqqqqqq"},
-      // Types and ranges of numbers.
+      // Types and ranges of numbers are wrong.
       {"[grid]\nsize = [0, 8, 8]\n", "scene.toml:2:9: error: grid.size.0 = 0 is below 1"},
       {"[grid]\nsize = [8, 8, 5000]\n", "scene.toml:2:15: error: grid.size.2 = 5000 exceeds 4096"},
       {"[grid]\nsize = [8, 8]\n", "scene.toml:2:8: error: grid.size must have 3 numbers, not 2"},
@@ -63,7 +63,7 @@ const std::vector<Case>& cases() {
        "scene.toml:8:9: error: run.steps must be an integer, not a date"},
       {kBox + "[material]\nmelting_point = 1.5\n",
        "scene.toml:8:17: error: material.melting_point = 1.5 exceeds 1"},
-      // Sources.
+      // Sources are wrong.
       {kBox + "[[heat_source]]\nat = [0, 0, 0]\npower = 1\n",
        "scene.toml:7:1: error: heat_source needs a [heat] table"},
       {kBox + "[heat]\n[heat_source]\n",
@@ -103,7 +103,7 @@ const std::vector<Case>& cases() {
        "scene.toml:12:9: error: vent.0.until = 5 must be after from = 5"},
       {kBox + "[[drain]]\nat = [0, 0, 0]\nradius = 1\nrate = 2\n",
        "scene.toml:10:8: error: drain.0.rate = 2 exceeds 1, a full cell per cell and step"},
-      // Flow.
+      // Keys for flow are wrong.
       {kBox + "[flow]\nlaw = \"honey\"\n",
        "scene.toml:8:7: error: flow.law = \"honey\" is not one of paper, viscous"},
       {kBox + "[flow]\nlaw = \"paper\"\n[flow.viscous]\nkappa = 1\n",
@@ -123,7 +123,7 @@ const std::vector<Case>& cases() {
        "scene.toml:8:9: error: flow.paper.table needs flow.paper.neighbours = 4"},
       {kBox + "[flow.paper]\nneighbours = 4\ntable = [[0, 0, 0, 0]]\n",
        "scene.toml:9:9: error: flow.paper.table must have 16..16 rows, not 1"},
-      // Shapes.
+      // Shapes are wrong.
       {kGrid + "[[solid]]\n", "scene.toml:3:1: error: solid.0.shape is missing"},
       {kGrid + "[[solid]]\nshape = \"dodecahedron\"\n",
        "scene.toml:4:9: error: solid.0.shape = \"dodecahedron\" is not one of sphere,"},
@@ -151,14 +151,14 @@ const std::vector<Case>& cases() {
        "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
       {kGrid + "[material]\nlatent_heat = 0.25\n[[inert]]\nshape = \"floor\"\ntemperature = 0.76\n",
        "scene.toml:7:15: error: inert.0.temperature = 0.76 exceeds 0.749996: latent heat takes the rest"},
-      // Files.
+      // Files are wrong.
       {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \"none.obj\"\nheight = 4\n",
        "scene.toml:5:8: error: cannot read none.obj: No such file or directory"},
       {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \".\"\nheight = 4\n",
        "scene.toml:5:8: error: cannot read"},
       {kBox + "[start]\nfields = \"none\"\n",
        "scene.toml:8:10: error: cannot read none/solid.npy: No such file or directory"},
-      // Drawing.
+      // Keys for drawing are wrong.
       {kBox + "[look]\nsolid = \"#5a2d0\"\n",
        "scene.toml:8:9: error: look.solid = \"#5a2d0\": want \"#rrggbb\", or [r, g, b] from 0 to 1"},
       {kBox + "[look]\nliquid = \"#5a2g00\"\n",
@@ -176,7 +176,7 @@ const std::vector<Case>& cases() {
       {kBox + "[camera]\nprojection = \"fisheye\"\n",
        "scene.toml:8:14: error: camera.projection = \"fisheye\" is not one of perspective, orthographic"},
       {kBox + "[camera]\nazimuth = 361\n", "scene.toml:8:11: error: camera.azimuth = 361 exceeds 360"},
-      // Overrides.
+      // Overrides are wrong.
       {kBox, "--set heat.gamma=0.7: error: heat.gamma = 0.7 exceeds 0.5236", {"heat.gamma=0.7"}},
       {kBox,
        "--set heat.gama=0.1: error: unknown key heat.gama; did you mean heat.gamma?",
@@ -250,7 +250,7 @@ TEST(BadInput, DeepNestingIsRefused) {
   EXPECT_NE(folder.error_of("title = " + std::string(100000, '[')), "");
 }
 
-// Any beginning of a good scene is either accepted or refused; nothing else happens.
+// Any beginning of a good scene is either accepted or refused. Nothing else happens.
 TEST(BadInput, TruncatedAnywhere) {
   const SceneFolder folder;
   const std::string text = kBox +

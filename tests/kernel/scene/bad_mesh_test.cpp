@@ -1,5 +1,5 @@
-// Meshes with faults: the cells are those of the bodies that the mesh was made of, and the warning names the
-// fault.
+// These meshes have faults. The cells are those of the bodies that the mesh was made of, and the warning
+// names the fault.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ using Lines = std::vector<std::string>;
 
 class BadMesh : public testing::Test {
  protected:
-  // Cells that are solid in the scene but not in the body, or the other way round: at most 1 % of the body's.
-  // The body's cells are those of whose 64 samples at least 4 are inside.
+  // Expects that at most 1 % of the body's cells differ: cells that are solid in the scene but not in the
+  // body, or the other way round. A cell belongs to the body if at least 4 of its 64 samples are inside.
   void expect(
       const MeshText& mesh, const Body& body, const Lines& warnings, const std::string& keys = "",
       const std::function<Corner(Corner)>& moved = [](Corner c) { return c; }) {
@@ -58,7 +58,7 @@ const std::string kOverlap = "m.obj: shells overlap, or one crosses itself: unit
 TEST_F(BadMesh, Open) {
   MeshText mesh;
   mesh.ball({16, 16, 16}, 11);
-  std::erase_if(mesh.faces, [&](const std::vector<int>& face) {  // a hole of 3 cells in its side
+  std::erase_if(mesh.faces, [&](const std::vector<int>& face) {  // makes a hole of 3 cells in its side
     return std::hypot(mesh.vertices[static_cast<std::size_t>(face[0])][1] - 16,
                       mesh.vertices[static_cast<std::size_t>(face[0])][2] - 16) < 3 &&
            mesh.vertices[static_cast<std::size_t>(face[0])][0] > 16;
@@ -72,7 +72,7 @@ TEST_F(BadMesh, Open) {
       });
     });
   });
-  int edges = 0;  // of which one side is gone: each is in one face
+  int edges = 0;  // open edges, which lie in one face only
   for (std::size_t i = 0; i < mesh.faces.size(); ++i)
     for (std::size_t k = 0; k < mesh.faces[i].size(); ++k) {
       const int a = mesh.faces[i][k], b = mesh.faces[i][(k + 1) % mesh.faces[i].size()];
@@ -87,8 +87,8 @@ TEST_F(BadMesh, Open) {
           fmt::format("m.obj: {} vertices without a face", unused)});
 }
 
-// Of a lone triangle a sample is inside where the lines through it along all three axes cross the triangle:
-// on its side of the plane their signs agree.
+// For a lone triangle, a sample is inside if the lines through it along all three axes cross the triangle. On
+// its side of the plane their signs agree.
 TEST_F(BadMesh, ALoneTriangle) {
   const std::array<std::array<Corner, 3>, 4> triangles{{{{{1, 2, 3}, {30, 5, 28}, {4, 31, 17}}},
                                                         {{{30, 1, 2}, {2, 8, 30}, {9, 30, 1}}},
@@ -123,7 +123,7 @@ TEST_F(BadMesh, ABoxWithoutThreeOfItsSides) {
          {"m.obj: 6 open edges" + kMean, "m.obj: 1 vertex without a face"});
 }
 
-// Open below its two flat sides: rays along y and z meet one surface, so those along x decide.
+// The ball is open below its two flat sides. Rays along y and z meet one surface, so those along x decide.
 TEST_F(BadMesh, AQuarterOfABall) {
   MeshText mesh;
   mesh.ball({16, 16, 16}, 11);
@@ -133,7 +133,8 @@ TEST_F(BadMesh, AQuarterOfABall) {
       return c[1] > 16.001 || c[2] > 16.001;
     });
   });
-  // 16 of 31 rings with 33 of 64 corners are left, and a pole; a half circle along each flat side is open.
+  // There are 16 of 31 rings left, with 33 of 64 corners, and a pole. A half circle along each flat side is
+  // open.
   const Body above = box_body({0, 16, 0}, {32, 16, 32}), behind = box_body({0, 0, 16}, {32, 32, 16});
   expect(mesh, ball_body({16, 16, 16}, 11) - above - behind,
          {"m.obj: 64 open edges" + kMean, "m.obj: 1457 vertices without a face"});
@@ -189,7 +190,7 @@ TEST_F(BadMesh, Overlapping) {
          {"m.obj: 3 shells", kOverlap});
 }
 
-// A star of five points drawn in one line: it winds twice around its middle. A place is inside where it is
+// A star of five points is drawn in one line, and winds twice around its middle. A place is inside if it is
 // left of at least four of the five lines.
 TEST_F(BadMesh, SelfIntersecting) {
   std::vector<std::array<double, 2>> star;
@@ -214,8 +215,8 @@ TEST_F(BadMesh, Degenerate) {
   MeshText mesh;
   mesh.box({6, 6, 6}, {16, 12, 18});
   mesh.vertices.push_back({10, 6, 6});  // on an edge of the box
-  mesh.faces.push_back({0, 0, 1});      // two corners
-  mesh.faces.push_back({3, 3, 3});      // one
+  mesh.faces.push_back({0, 0, 1});      // only two different corners
+  mesh.faces.push_back({3, 3, 3});      // only one corner
   mesh.faces.push_back({0, 8, 1});      // a line, which leaves its edges open
   expect(mesh, box_body({6, 6, 6}, {16, 12, 18}),
          {"m.obj: 2 shells", "m.obj: 1 shell without volume", "m.obj: 2 open edges" + kMean,
@@ -230,7 +231,7 @@ TEST_F(BadMesh, Unreferenced) {
 }
 
 TEST_F(BadMesh, PolygonsThatAreNotConvex) {
-  MeshText mesh;  // an L, a U
+  MeshText mesh;  // an L, then a U
   mesh.prism({{4, 28}, {28, 28}, {28, 20}, {12, 20}, {12, 4}, {4, 4}}, 20);
   expect(mesh, box_body({4, 0, 4}, {8, 20, 24}) | box_body({4, 0, 20}, {24, 20, 8}), {});
   MeshText other;
@@ -239,7 +240,7 @@ TEST_F(BadMesh, PolygonsThatAreNotConvex) {
          "rotate = [0, 0, 0]\n");
 }
 
-// 20,000 corners on a circle; every second one lies further in.
+// The polygon has 20,000 corners on a circle. Every second one lies further in.
 TEST_F(BadMesh, PolygonOfManyCorners) {
   std::vector<std::array<double, 2>> outline;
   for (int i = 0; i < 20000; ++i) {
@@ -267,7 +268,7 @@ TEST_F(BadMesh, FarFromTheOriginAndOfAnySize) {
 }
 
 TEST_F(BadMesh, NonManifold) {
-  MeshText mesh;  // two boxes that share an edge, of which one is inside out
+  MeshText mesh;  // two boxes that share an edge; one is inside out
   mesh.box({4, 4, 4}, {10, 10, 20}).box({14, 14, 4}, {10, 10, 20}).turn_from(6);
   expect(mesh, box_body({4, 4, 4}, {10, 10, 20}) | box_body({14, 14, 4}, {10, 10, 20}),
          {"m.obj: 2 shells", "m.obj: 1 shell inside out: turned", "m.obj: 1 edge of more than two faces"});
@@ -296,7 +297,7 @@ TEST_F(BadMesh, EmptyShell) {
   expect(mesh, box_body({6, 6, 6}, {16, 12, 18}), {"m.obj: 2 shells", "m.obj: 1 shell without volume"});
 }
 
-// A shell that points inward within another one is a cavity, and what is within it is matter again.
+// A shell that points inward within another one is a cavity. A shell within the cavity is matter again.
 TEST_F(BadMesh, Cavities) {
   const Body hollow =
       (ball_body({16, 16, 16}, 13) - box_body({10, 10, 10}, {12, 12, 12})) | ball_body({16, 16, 16}, 4);
@@ -306,7 +307,7 @@ TEST_F(BadMesh, Cavities) {
       .turn_from(MeshText::ball_faces)
       .ball({16, 16, 16}, 4);
   expect(mesh, hollow, {"m.obj: 3 shells, of which 1 is a cavity"});
-  mesh.turn_from(0);  // all of it inside out
+  mesh.turn_from(0);  // turns all of it inside out
   expect(mesh, hollow, {"m.obj: 3 shells, of which 1 is a cavity", "m.obj: 3 shells inside out: turned"});
 }
 

@@ -1,4 +1,4 @@
-// A part of a scene as a file of its own: what it says is what the scene says.
+// A part of a scene becomes a file of its own. It says the same as the scene.
 #include "kernel/scene/excerpt.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// The excerpt, loaded from another folder than its scene's.
+// Loads the excerpt from another folder than its scene's.
 Scene loaded(const SceneFolder& folder, const std::filesystem::path& file,
              const std::vector<std::string>& sets, const Part& part, std::uint32_t step) {
   const std::filesystem::path place = folder.path() / "excerpt";
@@ -96,7 +96,8 @@ rate = 0.06
   EXPECT_FALSE(less.parameters.heat.air);
 }
 
-// Its camera stands where it stood, its look and its floor are the scene's; what heats and pours is gone.
+// The camera stands at its place, and the look and the floor are the scene's. Its sources of heat and liquid
+// are gone.
 TEST(Excerpt, OfAPictureMovesItsCamera) {
   const SceneFolder folder;
   const std::filesystem::path file = folder.write("whole.toml", R"(

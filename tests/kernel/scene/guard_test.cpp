@@ -1,4 +1,4 @@
-// What the TOML parser must not see is refused before; what TOML allows is not.
+// The guard refuses documents that the TOML parser must not see, and lets all others pass that TOML allows.
 #include "kernel/scene/text/guard.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// A dotted key of so many parts.
+// Returns a dotted key of so many parts.
 std::string key_of(int parts) { return fmt::format("{}", fmt::join(std::vector<char>(parts, 'a'), ".")); }
 
 TEST(Guard, LetsGoodDocumentsPass) {

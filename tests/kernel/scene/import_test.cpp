@@ -1,4 +1,4 @@
-// Meshes, height fields and exported fields: what comes out, and what is refused.
+// Meshes, height fields and exported fields are imported, and bad ones are refused.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace voxmelt::scene {
 namespace {
 
-// A unit cube of twelve triangles or six squares.
+// This unit cube has twelve triangles or six squares.
 const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
 const std::string kSquares = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
 const std::string kMeshScene =
@@ -31,13 +31,13 @@ TEST(Mesh, CubeIsExact) {
   EXPECT_TRUE(scene.initial.solid.test(11, 9, 11));
 }
 
-// The same cube, as modelling programs write it.
+// Modelling programs write the same cube in these ways.
 TEST(Mesh, WhatWritersWriteIsRead) {
   const SceneFolder folder;
   const auto digest = [&](const std::string& mesh) {
     folder.write("m.obj", mesh);
     const Scene scene = folder.load_text(kMeshScene);
-    EXPECT_TRUE(scene.warnings.empty()) << mesh;  // of open edges, where a face is lost
+    EXPECT_TRUE(scene.warnings.empty()) << mesh;  // a lost face would leave open edges
     return scene.initial_digest;
   };
   const std::uint64_t plain = digest(kCorners + kSquares);
@@ -147,7 +147,7 @@ TEST(Heightfield, FlatGroundHasNoOffset) {
   EXPECT_EQ(scene.initial.amount[scene.initial.at(5, 2, 5)], 2048);
 }
 
-// docs/scenes.md: smoothed once, unless somebody says so otherwise.
+// The heights are smoothed once, as docs/scenes.md says, unless the scene says otherwise.
 TEST(Heightfield, IsSmoothedOnce) {
   const SceneFolder folder;
   folder.write("h.asc", "ncols 3\nnrows 3\n0 0 0\n0 8 0\n0 0 0\n");
@@ -177,7 +177,8 @@ TEST(Heightfield, OfTwoGroundsTheHigherOneCounts) {
   }
 }
 
-// A surface half a cell below its upper face is offset 0, and as a wall 1: no cell of amount 0 holds heat.
+// A surface half a cell below its upper face has offset 0, but 1 as a wall, because no cell of amount 0 holds
+// heat.
 TEST(Heightfield, AWallHasAnOffset) {
   const SceneFolder folder;
   folder.write("h.asc", "ncols 2\nnrows 2\n7 7\n7 7\n");
@@ -201,8 +202,8 @@ TEST(Heightfield, CellsWithoutDataAreLowestAndSaidSo) {
   EXPECT_FLOAT_EQ(scene.terrain.height[0], 2.25f);
 }
 
-// One grid as many programs write it: lines end as in DOS, sizes along two axes, signs, a byte order mark, a
-// last Ctrl-Z; and every way to say that the second cell has no elevation.
+// Many programs write one grid: lines end as in DOS, sizes go along two axes, and there are signs, a byte
+// order mark and a last Ctrl-Z. Every way to say that the second cell has no elevation occurs.
 TEST(Heightfield, WhatWritersWriteIsRead) {
   const SceneFolder folder;
   const auto values = [&](const std::string& grid) {
@@ -232,7 +233,7 @@ TEST(Heightfield, WhatWritersWriteIsRead) {
   }
   EXPECT_EQ(values(sides + "NODATA_value -3\n5 7.5\n-3 0.25\n"), (std::vector<double>{5, 7.5, 0.25, 0.25}));
   EXPECT_EQ(values(sides + "nan 7.5\n-3 0.25\n"), (std::vector<double>{-3, 7.5, -3, 0.25}));
-  // A number that means nothing where another one is named.
+  // The usual number means nothing if the file names another one.
   EXPECT_EQ(values(sides + "NODATA_value 0\n5 -9999\n-3 0.25\n"), (std::vector<double>{5, -9999, -3, 0.25}));
 }
 

@@ -1,4 +1,4 @@
-// Defaults, units, --set and extends of the scene loader.
+// The scene loader knows defaults, units, --set and extends.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -79,14 +79,15 @@ TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
             "flow.thermal: the mobility wants to be 28.7 times that at the reference, and stops at 2 times, "
             "from temperature 0.6 on; kappa times this factor is at most 142");
   EXPECT_EQ(cut.parameters.flow.mobility_table[31], 65535);
-  // A share of 1/32 may grow to 1/8 before it would exceed 1/5; four times as much is what the rule allows.
+  // A share of 1/32 may grow to 1/8 before it would exceed 1/5. The rule allows four times as much.
   const Scene paper = flow(1 / 32.0, "paper");
   EXPECT_TRUE(paper.warnings.empty());
   EXPECT_EQ(paper.parameters.flow.paper.share, 8192);
   EXPECT_EQ(paper.parameters.flow.mobility_table[16], 9129);  // 32768 x 1.114387 / 4
 }
 
-// A checkerboard's difference is multiplied by 1 - 12 gamma / pi: -0.910 at gamma 0.5, -0.5 at pi / 8.
+// A checkerboard's difference is multiplied by 1 - 12 gamma / pi, which is -0.910 at gamma 0.5 and -0.5 at pi
+// / 8.
 TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
   const SceneFolder folder;
   const auto scene = [&](const char* gamma, const char* neighbours) {
@@ -103,7 +104,7 @@ TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
   EXPECT_TRUE(scene("0", "26").warnings.empty());
 }
 
-// The defaults are written twice: where parameters are declared, and where a table is read.
+// The defaults are written twice: in the declaration of the parameters, and in the reading of a table.
 TEST(Load, AnEmptyTableIsAsGoodAsNone) {
   const SceneFolder folder;
   const rule::Flow without = folder.load_text(kLeast).parameters.flow;
@@ -279,7 +280,7 @@ TEST(Load, ClearIsANumberOrThree) {
   const auto look = [&](const std::string& keys) {
     return folder.load_text(kLeast + "[look]\n" + keys).look;
   };
-  // 0x5a = 90, 0x2d = 45, 0x0c = 12: ((90 / 255 + 0.055) / 1.055)^2.4 = 0.10224, and so on.
+  // 0x5a = 90, 0x2d = 45, 0x0c = 12. Then ((90 / 255 + 0.055) / 1.055)^2.4 = 0.10224, and so on.
   EXPECT_EQ(look("solid = \"#5a2d0c\"\n").solid, (Vec3{0.1022, 0.0262, 0.0037}));
   EXPECT_EQ(look("ground = \"#FFff00\"\n").ground, (Vec3{1, 1, 0}));
   EXPECT_EQ(look("background = \"#010a0b\"\n").background, (Vec3{0.0003, 0.003, 0.0033}));
@@ -288,7 +289,7 @@ TEST(Load, ClearIsANumberOrThree) {
   EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").clear, (Vec3{7.5, 7.5, 7.5}));
   EXPECT_EQ(look("clear=7.5\nfrost=0.25\n").frost, 0.25);
   EXPECT_EQ(look("clear=[1,0,256]\n").clear, (Vec3{1, 0, 256}));
-  EXPECT_EQ(look("glow=true\nclear=[0,0,0]\n").clear, (Vec3{}));  // opaque, which may glow
+  EXPECT_EQ(look("glow=true\nclear=[0,0,0]\n").clear, (Vec3{}));  // an opaque look may glow
 }
 
 TEST(Overrides, ReplaceAndAddKeys) {

@@ -1,4 +1,4 @@
-// Meshes made of boxes and balls, as OBJ files; and the cells that the same bodies fill, counted plainly.
+// Makes OBJ meshes of boxes and balls, and counts plainly the cells that the same bodies fill.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct MeshText {
     return *this;
   }
 
-  // Rings of corners between two poles.
+  // Adds rings of corners between two poles.
   static constexpr int rings = 32, around = 64, ball_faces = rings * around;
   MeshText& ball(Corner at, double radius) {
     const int first = static_cast<int>(vertices.size());
@@ -55,8 +55,8 @@ struct MeshText {
     return *this;
   }
 
-  // A prism between y = 0 and `height` over corners (x, z), which run counterclockwise seen from above (+x to
-  // -z).
+  // Adds a prism between y = 0 and `height` over corners (x, z). They run counterclockwise seen from above
+  // (+x to -z).
   MeshText& prism(const std::vector<std::array<double, 2>>& outline, double height) {
     const int first = static_cast<int>(vertices.size()), n = static_cast<int>(outline.size());
     for (const double y : {0.0, height})
@@ -81,7 +81,7 @@ struct MeshText {
     return *this;
   }
 
-  // As `number` prints, e.g. moved and scaled.
+  // Prints the mesh after `place` has moved its corners.
   std::string text(const std::function<Corner(Corner)>& place = [](Corner c) { return c; }) const {
     std::string text;
     for (const Corner& vertex : vertices) {

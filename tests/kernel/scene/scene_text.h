@@ -1,4 +1,4 @@
-// Scenes from text, in a folder of their own under the tests' temporary folder.
+// Loads scenes from text, in a folder of their own under the tests' temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace voxmelt::scene {
 
-// The folder scene_text/<suite>.<test>, emptied for each test.
+// Owns the folder scene_text/<suite>.<test>, emptied for each test.
 class SceneFolder {
  public:
   SceneFolder() {
@@ -40,7 +40,7 @@ class SceneFolder {
     return load(write("scene.toml", text), overrides);
   }
 
-  // The message that loading ends with, its folder taken out; empty where the scene is accepted.
+  // Returns the message that loading ends with, without its folder, or nothing if the scene is accepted.
   std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     try {
       load_text(text, overrides);
@@ -62,7 +62,7 @@ class SceneFolder {
 
 inline std::filesystem::path committed_scenes() { return VOXMELT_SCENES_FOLDER; }
 
-// Mass of the solid in cells.
+// Returns the mass of the solid in cells.
 inline double solid_mass(const state::Volume& volume) {
   std::int64_t sum = 0;
   for (int z = 0; z < volume.grid.z; ++z)

@@ -1,4 +1,5 @@
-// What a checkpoint keeps of a scene gives the same scene again, but for what fills its grid.
+// The settings of a scene that a checkpoint keeps give the same scene again, except for the cells of its
+// grid.
 #include <gtest/gtest.h>
 
 #include <filesystem>

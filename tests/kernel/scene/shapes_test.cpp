@@ -1,4 +1,4 @@
-// Volumes of voxelised shapes against the analytic ones, within the tolerance of 64 samples per cell.
+// Volumes of voxelised shapes agree with the analytic ones, within the tolerance of 64 samples per cell.
 #include <numbers>
 #include <string>
 #include <utility>
@@ -18,7 +18,7 @@ struct Case {
   const char* name;
   const char* shape;  // keys of [[solid]]
   double volume;
-  double tolerance;  // of the volume
+  double tolerance;  // share of the volume
 };
 
 class Shapes : public testing::TestWithParam<Case> {};
@@ -74,7 +74,7 @@ const Case kCases[] = {
 INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::ValuesIn(kCases),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// Skipping blocks must not change a single sample. So the same shape is sampled one by one.
+// Skipping blocks must not change a single sample. So the same shape is sampled place by place.
 TEST(Coverage, SkippedBlocksAreThoseThatSamplesWouldFill) {
   std::vector<ShapePtr> parts;
   parts.push_back(
@@ -138,8 +138,9 @@ shape = "floor"
   }
 }
 
-// A wall of temperature T holds the heat at which matter has that temperature: T up to the melting point,
-// 0.5 (32768), T and the latent heat, 0.25 (16384), above it. 0 is a wall of the least heat; no key, no wall.
+// A wall of temperature T holds the heat at which matter has that temperature. This is T up to the melting
+// point, 0.5 (32768), and above it T and the latent heat, 0.25 (16384). 0 is a wall of the least heat.
+// Without the key there is no wall.
 TEST(Voxels, AnInertShapeWithATemperatureIsAWall) {
   const SceneFolder folder;
   const Scene scene = folder.load_text(R"(
@@ -200,13 +201,13 @@ TEST(Voxels, ThinCoverageIsDropped) {
                    ",1]\nat=[2,2.125,2.5]")
         .initial;
   };
-  const state::Volume layer = solid("0.25");  // one of four layers of samples
+  const state::Volume layer = solid("0.25");  // one of four layers of samples is inside
   EXPECT_EQ(layer.solid.count(), 4);
   EXPECT_EQ(layer.amount[layer.at(1, 2, 2)], 1024);
   const SceneFolder other;
   const Scene one =
       other.load_text("[grid]\nsize=[2,2,2]\n[[solid]]\nshape='sphere'\nradius=0.1\nat=[0.625,0.625,0.625]");
-  EXPECT_EQ(one.initial.solid.count(), 0);  // one sample of 64
+  EXPECT_EQ(one.initial.solid.count(), 0);  // only one sample of 64 is inside
 }
 
 }  // namespace

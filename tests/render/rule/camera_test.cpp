@@ -1,4 +1,4 @@
-// Angles and rays against plain double computations.
+// Angles and rays agree with plain double computations.
 #include "render/rule/camera.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Angle, QuartersAreExact) {
   is(-450, -1, 0);
 }
 
-// 17 terms are cut by less than 1 each, and pi by less than 1: the sums are within 10 of the true values.
+// 17 terms are cut by less than 1 each, and pi by less than 1. So the sums are within 10 of the true values.
 TEST(Angle, IsThatOfTheMathematicians) {
   for (std::int64_t angle = -400 * kDegree; angle < 400 * kDegree; angle += 4099) {
     const double radians = static_cast<double>(angle) / static_cast<double>(kDegree) * std::numbers::pi / 180;
@@ -55,8 +55,8 @@ TEST(Angle, IsThatOfTheMathematicians) {
   }
 }
 
-// With a tangent of 1 and 512 rows a pixel is as high as 2 / 512 of its distance: 15/128 of a cell at 30
-// cells, and half of that at 15.
+// With a tangent of 1 and 512 rows a pixel is as high as 2 / 512 of its distance. This is 15/128 of a cell at
+// 30 cells, and half of that at 15.
 TEST(Camera, StepsAreHalvedWherePixelsAreSmall) {
   EXPECT_EQ(halvings_of(kUnit, 16 * 30, 512), 0);
   EXPECT_EQ(halvings_of(kUnit, 16 * 30 - 1, 512), 1);
@@ -66,7 +66,7 @@ TEST(Camera, StepsAreHalvedWherePixelsAreSmall) {
   EXPECT_EQ(halvings_of(kUnit - 1, 16 * 30, 512), 1);  // a narrower view, or more rows
   EXPECT_EQ(halvings_of(kUnit, 16 * 30, 513), 1);
   EXPECT_EQ(halvings_of(4 * kUnit, 1 << 24, 1 << 20), 0);  // 4 x 2^21 / 2^20 cells; no product wraps
-  // The straight view below, 99.3 cells from its near plane: 30 / 99.3 x 512 is 1694 rows.
+  // The straight view below is 99.3 cells from its near plane, so 30 / 99.3 x 512 is 1694 rows.
   Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
   for (const auto& [rows, halvings] : {std::array{1690, 0}, {1700, 1}, {3380, 1}, {3400, 2}}) {
     camera.height = rows;
@@ -76,7 +76,7 @@ TEST(Camera, StepsAreHalvedWherePixelsAreSmall) {
   EXPECT_EQ(view_of(camera, {64, 64, 64}).halvings, 2);
 }
 
-// Looking along -z from 100 cells away with a right angle of view: every number is a short one.
+// The camera looks along -z from 100 cells away with a right angle of view, so every number is a short one.
 TEST(Camera, AStraightView) {
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
   const View view = view_of(camera, {64, 64, 64});
@@ -87,12 +87,13 @@ TEST(Camera, AStraightView) {
   EXPECT_NEAR(static_cast<double>(view.wide.x), static_cast<double>(kUnit), 20);
   EXPECT_EQ(view.near, 16 * 99 + 8 - 3);  // the grid and half a cell, less 3 sixteenths
 
-  // The middle of the picture: the ray starts on the plane and goes a quarter of a cell at a time.
+  // In the middle of the picture, the ray starts on the plane and goes a quarter of a cell at a time.
   const Ray middle = ray_through(view, 256, 128, 2);
   EXPECT_EQ(middle.start, (Vector{32 * kCell, 32 * kCell, 164 * kCell - view.near * kCell / 16}));
   EXPECT_EQ(middle.step, (Vector{0, 0, -kCell / 4}));
 
-  // A quarter of the height above the middle, and as far to the left of it: half of the depth to the side.
+  // A quarter of the height above the middle, and as far to the left, the ray goes half of the depth to the
+  // side.
   const Ray corner = ray_through(view, 192, 64, 2);
   EXPECT_NEAR(static_cast<double>(corner.step.x), -static_cast<double>(kCell) / 8, 2);
   EXPECT_NEAR(static_cast<double>(corner.step.y), static_cast<double>(kCell) / 8, 2);
@@ -102,7 +103,7 @@ TEST(Camera, AStraightView) {
   EXPECT_NEAR(static_cast<double>(corner.start.y - view.eye.y), half_depth, 1000);
 }
 
-// The view from 100 cells away: the plane lies 99.3125 cells deep, and a depth counts in 32nds from there.
+// In the view from 100 cells away, the plane lies 99.3125 cells deep, and a depth counts in 32nds from there.
 TEST(Camera, DepthByHand) {
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
   const View view = view_of(camera, {64, 64, 64});
@@ -110,12 +111,12 @@ TEST(Camera, DepthByHand) {
   EXPECT_EQ(depth_in_picture(view, {0, 7 * kCell, 64 * kCell}), 22);  // 0.6875 cells
   EXPECT_EQ(depth_in_picture(view, {0, 0, 0}), 22 + 64 * 32);
   EXPECT_EQ(depth_in_picture(view, {0, 0, 100 * kCell}), 0);                // before the plane
-  EXPECT_EQ(depth_in_picture(view, {0, 0, -10000 * kCell}), kNoDepth - 1);  // as far as it goes
+  EXPECT_EQ(depth_in_picture(view, {0, 0, -10000 * kCell}), kNoDepth - 1);  // as far as depths go
 }
 
 // Seen from the front with half a field of 45 degrees, a cube of 64 cells reaches 32 cells from the middle.
-// Its front is 32 cells before its middle, and the air is 1055/1024: 32 + 32 x 1055/1024 cells, give or take
-// a 4096th.
+// Its front is 32 cells before its middle, and the air is 1055/1024. So the distance is 32 + 32 x 1055/1024
+// cells, give or take a 4096th.
 TEST(Camera, TheDistanceThatFitsByHand) {
   Camera camera{{32 * kCell, 32 * kCell, 32 * kCell}, 0, 0, 0, 45 * kDegree, 64, 64};
   const auto distance = [&] { return view_of(camera, {64, 64, 64}).eye.z / (kCell / 4096) - 32 * 4096; };
@@ -126,7 +127,7 @@ TEST(Camera, TheDistanceThatFitsByHand) {
   EXPECT_NEAR(static_cast<double>(distance()), (32 + 64 * 1055.0 / 1024) * 4096, 2);
 }
 
-// The compiler refuses a constant whose computation overflows: these are the ends of all ranges.
+// The compiler refuses a constant whose computation overflows. These are the ends of all ranges.
 struct Extreme {
   Samples samples;
   std::int64_t depth;
@@ -151,7 +152,7 @@ TEST(Camera, NothingOverflowsAtTheEndsOfTheRanges) {
   }
 }
 
-// Random cameras: the ray runs along that of a camera in double, and starts before the grid.
+// For random cameras, the ray runs along that of a camera in double, and starts before the grid.
 TEST(Camera, RaysAreThoseOfADoubleCamera) {
   std::mt19937 random(15);
   const auto within = [&](double low, double high) {
@@ -194,7 +195,7 @@ TEST(Camera, RaysAreThoseOfADoubleCamera) {
     const double wide = std::sqrt(dot(direction, direction));
     // near_wide and near_high are rounded to 2^-30 cells, and up to 128000 of them are added.
     ASSERT_LT(distance(cells_of(ray.start), along(eye, direction, near)), 2e-4 * wide) << i;
-    // A step is along the direction: what is across is at most the rounding of three components.
+    // A step is along the direction. Its part across is at most the rounding of three components.
     const Triple step = cells_of(ray.step);
     const double depth = dot(step, direction) / dot(direction, direction);
     ASSERT_LT(distance(step, along({}, direction, depth)), 1e-6) << i;

@@ -1,4 +1,4 @@
-// What clear matter lets through: by hand, and against double.
+// The light that clear matter lets through is tested by hand, and against double.
 #include "render/rule/clear.h"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,9 @@ TEST(Clear, LossesByHand) {
   EXPECT_FALSE(is_clear({.clear = {64, 64, 64}, .glow = true}));
 }
 
-// Ten cells of matter of which ten let half of the red pass: (2560 x 409) >> 12 = 255, and 2^15 2^(-255/256)
-// is 16428.4. Green: 2560 entries are more than the table has. Blue: (2560 x 16) >> 12 = 10, 31892.8.
+// Ten cells of matter let half of the red pass, and the way is ten cells long. (2560 x 409) >> 12 = 255, and
+// 2^15 2^(-255/256) is 16428.4. For green, 2560 entries are more than the table has. For blue, (2560 x 16) >>
+// 12 = 10 gives 31892.8.
 TEST(Clear, PassedByHand) {
   const Passing table = passing_table();
   const Color losses{409, 4096, 16};
@@ -39,7 +40,7 @@ TEST(Clear, PassedByHand) {
   EXPECT_EQ(passed(table, losses, {kLight, 10 << 16}), (Color{16428, 0, 31893}));
   EXPECT_EQ(passed(table, losses, {kLight / 2, 10 << 16}), (Color{8214, 0, 15946}));
   EXPECT_EQ(passed(table, losses, {0, 0}), (Color{0, 0, 0}));
-  // The longest way of all: (2^19 - 1) x 16 >> 12 = 2047.
+  // The longest way of all has (2^19 - 1) x 16 >> 12 = 2047.
   EXPECT_EQ(passed(table, {16, 16, 16}, {kLight, kMostWay}), (Color{0, 0, 0}));
 }
 
@@ -52,12 +53,12 @@ TEST(Clear, SurfacesAndWaysByHand) {
   EXPECT_EQ(further(kMostWay - 5, 7), kMostWay);
   EXPECT_EQ(length_of_step({-262144, 0, 0}, {16384, 0, 0}), 16384);  // a quarter of 65536
   EXPECT_EQ(length_of_step({0, 131077, 0}, {0, -16384, 0}), 8193);   // 8192.3, away from the eye
-  // 3 x 16384 x 9459 / 16384 = 28377; a quarter of the root of 3 is 28377.9.
+  // 3 x 16384 x 9459 / 16384 is 28377, and a quarter of the root of 3 is 28377.9.
   EXPECT_EQ(length_of_step({262144, -262144, 262144}, {-9459, 9459, -9459}), 28377);
 }
 
-// 16 cells for half, two cells wide: entry 512 x 256 / 4096 = 32, 2^15 2^(-1/8) = 30048.4, 234 of 256 pass.
-// Then 180 x 22 / 256 = 15.5.
+// The light halves in 16 cells, and a cell of light is two wide. Entry 512 x 256 / 4096 = 32 is 2^15 2^(-1/8)
+// = 30048.4, and 234 of 256 pass. Then 180 x 22 / 256 is 15.5.
 TEST(Clear, DensityForLightByHand) {
   const Passing table = passing_table();
   EXPECT_EQ(density_share(table, {1, 256, 1}, 1), 15);
@@ -84,7 +85,7 @@ TEST(Clear, InnerLightByHand) {
   EXPECT_EQ(inner_light(lamp, below, above, light), (Color{(400 * 8) >> 8, 0, (4000 * 8) >> 8}));
 }
 
-// Seen from within, a surface mirrors what is in front of it, and scatters what arrives behind.
+// Seen from within, a surface mirrors the scene in front of it, and scatters the light that arrives behind.
 TEST(Clear, ASurfaceFromWithin) {
   Look look;
   look.solid = {4096, 4096, 4096};

@@ -1,4 +1,4 @@
-// Where rays meet planes and balls: analytic places, and a dense march in double.
+// Rays meet planes and balls in analytic places, and as in a dense march in double.
 #include "render/rule/crossing.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Crossing, FalsePositionIsThatOfFloats) {
     }
 }
 
-// Levels of -100 and 350 at the centres of cells 0 and 1. The middles 1, 3/4 and 5/8 have 125, 13 and -44
+// The centres of cells 0 and 1 have levels of -100 and 350. The middles 1, 3/4 and 5/8 have 125, 13 and -44
 // (-43.25 rounded down after a half is added). Then f = 44 x 256 / 57 = 197 of an eighth of a cell.
 TEST(Crossing, BetweenTwoCellsByHand) {
   const test::CubeOfLevels levels(2, [](int x, int, int) { return x == 0 ? -100 : 350; });
@@ -53,7 +53,8 @@ TEST(Crossing, BetweenTwoCellsByHand) {
   EXPECT_EQ(got.part, 1 * 256 + 197);  // inside, inside, outside: the second of eight
 }
 
-// Levels of -100, 0, 0 and 100: 0 is matter, so the middles 2, 5/4 and 13/8 end as inside, outside, inside.
+// The levels are -100, 0, 0 and 100. As 0 is matter, the middles 2, 5/4 and 13/8 end as inside, outside,
+// inside.
 TEST(Crossing, LevelZeroIsMatter) {
   const test::CubeOfLevels levels(4, [](int x, int, int) { return x == 0 ? -100 : x == 3 ? 100 : 0; });
   const Ray ray{{kCell / 2, kCell / 2, kCell / 2}, {3 * kCell, 0, 0}};
@@ -71,14 +72,14 @@ TEST(Crossing, FullGridIsMetOnItsSide) {
     const Crossing near = first_crossing(full, full.cells(), right);
     const Crossing far = first_crossing(full, full.cells(), left);
     ASSERT_TRUE(near.found && far.found);
-    // Weights are to the nearest 512th of a cell, and the level is even: so is the place.
+    // Weights are to the nearest 512th of a cell, and the level is even, so the place is as exact.
     ASSERT_NEAR(cells(near.position.x), 0, 1.0 / 400);
     ASSERT_NEAR(cells(far.position.x), 8, 1.0 / 400);
     ASSERT_EQ(near.position.y, 4 * kCell);
   }
 }
 
-// The worked ray of docs/picture/definition.md, section 11: every number by hand.
+// Every number of the worked ray of docs/picture/definition.md, section 11, is by hand.
 TEST(Crossing, TheWorkedRay) {
   const test::CubeOfLevels full(64, [](int, int, int) { return kHalfIntensity; });
   const Camera camera{{32 * kCell, 32 * kCell, 64 * kCell}, 100 << 12, 0, 0, 45 * kDegree, 8, 4};
@@ -103,8 +104,8 @@ TEST(Crossing, TheWorkedRay) {
   EXPECT_EQ(depth_in_picture(view, got.position), 22);
 }
 
-// Sample 3 and part 100: matter is at 2 x 2048 + 100 = 4196. The top shows up to there, a side 1024 later or
-// as far in halved steps. Places of the ground are eighths of that.
+// With sample 3 and part 100, matter is at 2 x 2048 + 100 = 4196. The top shows up to there, and a side 1024
+// later or as far in halved steps. Places of the ground are eighths of that.
 TEST(Nearer, SidesWinByTheSameLength) {
   const auto first = [](Face face, std::int64_t part, int halvings) {
     return ground_first({true, part, {}, face}, {true, 3, 100, {}}, halvings);
@@ -132,7 +133,7 @@ TEST(Crossing, ARayThatStartsInMatterMeetsItThere) {
   EXPECT_EQ(got.position, ray.start);
 }
 
-// The same samples in double: first a march in 4096ths of a step, then a comparison of the places.
+// The same samples are taken in double: first a march in 256ths of a step, then a comparison of the places.
 TEST(Crossing, IsThatOfADenseMarchInDouble) {
   const test::CubeOfLevels ball = test::ball_of_levels(24, 8);
   std::mt19937 random(3);
@@ -142,7 +143,7 @@ TEST(Crossing, IsThatOfADenseMarchInDouble) {
     const Vector from{place(random), place(random), -3 * kCell}, to{place(random), place(random), 27 * kCell};
     const Ray ray{from, step_along(to - from, 2)};
     const Crossing got = first_crossing(ball, ball.cells(), ray);
-    const double most = 30 * 8 * 2;  // samples to the far side, and more
+    const double most = 30 * 8 * 2;  // samples beyond the far side
     double crossing = -1, deepest = kAir;
     for (double k = 0; k < most && crossing < 0; k += 1.0 / 256) {
       const double level =
@@ -165,7 +166,7 @@ TEST(Crossing, IsThatOfADenseMarchInDouble) {
     ++met;
     const double at = cells(got.position.z - from.z) / cells(ray.step.z);
     const double length = std::hypot(cells(ray.step.x), cells(ray.step.y), cells(ray.step.z));
-    // Along the normal: the angle between ray and surface takes its share.
+    // Along the normal, the angle between ray and surface takes its share.
     const double nx = cells(got.position.x) - 12, ny = cells(got.position.y) - 12,
                  nz = cells(got.position.z) - 12;
     const double cosine = std::abs(nx * cells(ray.step.x) + ny * cells(ray.step.y) + nz * cells(ray.step.z)) /

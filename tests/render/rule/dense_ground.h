@@ -1,4 +1,4 @@
-// The ground in double, and a dense march along a ray through it.
+// The ground is computed in double, with a dense march along a ray through it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace voxmelt::test {
 
 inline double in_cells(std::int64_t position) { return std::ldexp(static_cast<double>(position), -20); }
 
-// How far a place is outside of the ground; below 0: how deep it lies. Weights are exact.
+// Returns how far a place is outside of the ground. Below 0 it lies that deep. Weights are exact.
 template <class Heights>
 class DenseGround {
  public:
@@ -27,15 +27,15 @@ class DenseGround {
         std::max({-x, x - static_cast<double>(cells_.x), -y, -z, z - static_cast<double>(cells_.z)});
     return beside > 0 ? beside : std::max(beside, y - height(x, z));
   }
-  // At sample k of a ray, or between two.
+  // Takes sample k of a ray, or a place between two.
   double outside(const picture::Ray& ray, double k) const {
     return outside(in_cells(ray.start.x) + k * in_cells(ray.step.x),
                    in_cells(ray.start.y) + k * in_cells(ray.step.y),
                    in_cells(ray.start.z) + k * in_cells(ray.step.z));
   }
 
-  // The longest run of a ray before `until` that is deeper than `depth`, in its steps; looked at 16 times a
-  // step.
+  // Returns the longest run of a ray before `until` that is deeper than `depth`, in its steps. It looks 16
+  // times a step.
   double longest_run(const picture::Ray& ray, double until, double depth) const {
     double from = 0, to = until;
     for (const auto& [start, step, side] :
@@ -71,8 +71,8 @@ class DenseGround {
   picture::Vector cells_;
 };
 
-// What is wrong with the crossing that a ray was given, or nothing. Ground less deep than `depth` does not
-// count, and a ray may miss what it runs through within one step.
+// Returns the fault of the crossing that a ray was given, or nothing. Ground less deep than `depth` does not
+// count, and a ray may miss ground that it passes within one step.
 template <class Heights>
 const char* fault_of(const DenseGround<Heights>& ground, const picture::Ray& ray,
                      const picture::GroundCrossing& got, double depth) {

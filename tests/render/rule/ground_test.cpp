@@ -1,4 +1,4 @@
-// The ground's heights, faces and crossings: by hand, and against a dense march in double.
+// The ground's heights, faces and crossings are tested by hand, and against a dense march in double.
 #include "render/rule/ground.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,8 @@ TEST(Heights, FiltersByHand) {
   EXPECT_EQ(lowered(8192, 0), 8192);
 }
 
-// Columns 0 and 256 along x, the same plus 512 behind: halves and quarters, and the ends repeated.
+// The columns are 0 and 256 along x, and the same plus 512 behind. Halves and quarters are taken, and the
+// ends repeat.
 TEST(Heights, BetweenColumnsByHand) {
   const Land land{{2, 4, 2}, {0, 256, 512, 768}};
   const auto at = [&](std::int64_t x, std::int64_t z) { return height_at(land, land.cells, x, z); };
@@ -56,7 +57,7 @@ TEST(Heights, BetweenColumnsByHand) {
   EXPECT_EQ(at(2 * kCell - 1, 2 * kCell - 1), 768);
 }
 
-// The widest product of two columns: 1024 cells, times 256.
+// The widest product of two columns is 1024 cells, times 256.
 TEST(Heights, TheHighestFit32Bits) {
   const std::int32_t most = 1024 * kHeight;
   static_assert(std::int64_t{1024} * kHeight * kWeights + kWeights / 2 < std::int64_t{1} << 31);
@@ -78,8 +79,8 @@ TEST(Ground, IsWhatLiesBelowTheHeights) {
   EXPECT_FALSE(in(kCell, kCell, 4 * kCell));
 }
 
-// A slab two cells high, met from all six sides at steps of a quarter of a cell. The distances are those of
-// the faces, in 256ths of a step; the first place inside comes after the face on the far sides.
+// A slab two cells high is met from all six sides at steps of a quarter of a cell. The distances are those of
+// the faces, in 256ths of a step. On the far sides the first place inside comes after the face.
 TEST(Ground, ASlabFromAllSides) {
   const Land land = flat({4, 8, 4}, 2 * kHeight);
   struct Case {
@@ -106,12 +107,12 @@ TEST(Ground, ASlabFromAllSides) {
   }
 }
 
-// A ray through no sample of the slab, that cuts an edge off.
+// A ray through no sample of the slab cuts an edge off.
 TEST(Ground, AnEdgeBetweenTwoSamplesIsMet) {
   const Land land = flat({4, 8, 4}, 2 * kHeight);
   const std::int64_t q = kCell / 4;
-  // From x = -0.15 and y = 0.24, down by a cell for each: in at x = 0 and y = 0.09, out at x = 0.09 and y =
-  // 0.
+  // From x = -0.15 and y = 0.24 the ray goes down by a cell for each cell along x. It goes in at x = 0 and y
+  // = 0.09, and out at x = 0.09 and y = 0.
   const std::int64_t y = kCell * 24 / 100;
   const Ray ray{{-kCell * 15 / 100, y, kCell}, {q, -q, 0}};
   EXPECT_FALSE(in_ground(land, land.cells, ray.at(0)) || in_ground(land, land.cells, ray.at(1)));
@@ -122,8 +123,8 @@ TEST(Ground, AnEdgeBetweenTwoSamplesIsMet) {
   EXPECT_FALSE(land.met_by({{-kCell * 26 / 100, y, kCell}, {q, -q, 0}}).found);
 }
 
-// A ray that goes in through the top and out through a side within one step: the worked ray of
-// docs/picture/ground.md, section 9.
+// In the worked ray of docs/picture/ground.md, section 9, a ray goes in through the top and out through a
+// side within one step.
 TEST(Ground, WhereARayLeavesIsLookedAt) {
   const Land land{{2, 8, 1}, {8 * kHeight, 4 * kHeight}};
   // Beyond x = 1.5 the ground is 4 cells high. The ray is 0.25 above it, and below it after 25/26 of a step.
@@ -159,7 +160,7 @@ TEST(Ground, HeightZeroIsNoGround) {
   }
 }
 
-// Corners: a side along x goes first, then one along z, then the underside.
+// At corners, a side along x goes first, then one along z, then the underside.
 TEST(Ground, TiesOfFaces) {
   const Vector cells{4, 8, 4};
   EXPECT_EQ(face_before(cells, {-1, -1, -1}), Face::low_x);
@@ -170,7 +171,8 @@ TEST(Ground, TiesOfFaces) {
   EXPECT_EQ(face_before(cells, {0, 0, 0}), Face::top);
 }
 
-// One cell up for each cell along x: the normal leans back by 45 degrees, 11585 = 2^14 / sqrt 2.
+// The ground rises one cell for each cell along x. The normal leans back by 45 degrees, 11585 = 2^14 / sqrt
+// 2.
 TEST(Ground, NormalOfASlope) {
   Land land = flat({8, 8, 8}, 0);
   for (std::size_t i = 0; i < land.heights.size(); ++i) land.heights[i] = static_cast<int>(i % 8) * kHeight;
@@ -180,17 +182,18 @@ TEST(Ground, NormalOfASlope) {
   EXPECT_EQ(n.z, 0);
 }
 
-// The steepest that there is: 1024 cells from one column to the next.
+// The steepest cliff rises 1024 cells from one column to the next.
 TEST(Ground, NormalOfACliff) {
   const Land land{{2, 1024, 1}, {0, 1024 * kHeight}};
   const Vector n = ground_normal(land, land.cells, {kCell, 0, kHalf}, Face::top);
   EXPECT_NEAR(static_cast<double>(n.x), -16384, 2);
   EXPECT_NEAR(static_cast<double>(n.y), 16, 2);
-  const Vector odd = slope_normal(-65535, -65535);     // that it is odd must not overflow
-  EXPECT_NEAR(static_cast<double>(odd.x), -11574, 3);  // of (-16, 1, -16)
+  const Vector odd = slope_normal(-65535, -65535);     // an odd component must not overflow
+  EXPECT_NEAR(static_cast<double>(odd.x), -11574, 3);  // from (-16, 1, -16)
 }
 
-// At the edge the fall is a whole cell more, a quarter of a cell from it half of that, and then nothing.
+// At the edge the fall is a whole cell more, and a quarter of a cell from it half of that. Further in it is
+// nothing.
 TEST(Ground, RimByHand) {
   EXPECT_EQ(rim(0, 16), -4096);
   EXPECT_EQ(rim(kCell / 4, 16), -2048);
@@ -201,7 +204,7 @@ TEST(Ground, RimByHand) {
   EXPECT_NEAR(static_cast<double>(n.x), 11585, 2);
 }
 
-// Hills with crests a few cells wide.
+// Makes hills with crests a few cells wide.
 Land hills(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0, 1);
@@ -216,7 +219,7 @@ Land hills(std::uint32_t seed) {
   return land;
 }
 
-// Every ray of 200 views. 0.02 cells are what weights of 8 bits leave open on slopes of up to 5.
+// Every ray of 200 views is checked. On slopes of up to 5, weights of 8 bits leave 0.02 cells open.
 TEST(Ground, IsThatOfADenseMarchInDouble) {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> azimuth(0, 359), elevation(-20, 60), distance(20, 90), field(5, 40);

@@ -1,4 +1,4 @@
-// Small fields of levels for the tests of the picture's rules.
+// Makes small fields of levels for the tests of the picture's rules.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace voxmelt::test {
 
-// A cube of side^3 cells, air outside.
+// Holds a cube of side^3 cells, with air outside.
 class CubeOfLevels {
  public:
-  // level(x, y, z) of each cell; coordinates are those of the cell, not of its centre.
+  // Calls level(x, y, z) for each cell. The coordinates are those of the cell, not of its centre.
   template <class Level>
   CubeOfLevels(int side, const Level& level) : side_(side) {
     for (int z = 0; z < side; ++z)
@@ -34,7 +34,7 @@ class CubeOfLevels {
   std::vector<std::int32_t> levels_;
 };
 
-// A ball whose level falls evenly through a shell of four cells.
+// Makes a ball whose level falls evenly through a shell of four cells.
 inline CubeOfLevels ball_of_levels(int side, double radius) {
   return {side, [=](int x, int y, int z) {
             const double half = side / 2.0;
@@ -43,7 +43,7 @@ inline CubeOfLevels ball_of_levels(int side, double radius) {
           }};
 }
 
-// The trilinear interpolation in double, at a position in cells, with exact weights.
+// Returns the trilinear interpolation in double, at a position in cells, with exact weights.
 inline double plain_sample(const CubeOfLevels& levels, double x, double y, double z) {
   const double cx = std::floor(x - 0.5), cy = std::floor(y - 0.5), cz = std::floor(z - 0.5);
   double sum = 0;

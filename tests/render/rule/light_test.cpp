@@ -1,4 +1,4 @@
-// The rule of light: by hand, and against double.
+// The rule of light is tested by hand, and against double.
 #include "render/rule/light_grid.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(LightGrid, LossByHand) {
   EXPECT_EQ(glowing(200, 128, 20), 120);
 }
 
-// A slope of -0.6 (-9830 / 16384): at slice 3 it is -1.79993 cells, which is -2 and 51 of 256.
+// A slope of -0.6 (-9830 / 16384) is -1.79993 cells at slice 3, which is -2 and 51 of 256.
 TEST(LightGrid, ShiftsByHand) {
   EXPECT_EQ(shift_at(0, -9830).cells, 0);
   EXPECT_EQ(shift_at(3, -9830).cells, -2);
@@ -73,11 +73,11 @@ TEST(LightGrid, SidesSeenAlongADirection) {
   EXPECT_EQ(seen_along(sides, {0, -16384, 0}), 40);
   EXPECT_EQ(seen_along(sides, {0, 0, 16384}), 50);
   EXPECT_EQ(seen_along(sides, {0, 0, -16384}), 60);
-  // 3 4 0 of 5: shares of 9 and 16 of 25, so 10 x 0.36 + 40 x 0.64 = 29.2.
+  // The direction is 3 4 0 of 5. The shares are 9 and 16 of 25, so 10 x 0.36 + 40 x 0.64 = 29.2.
   EXPECT_EQ(seen_along(sides, {9830, -13107, 0}), 29);
 }
 
-// Two cells of light along x, two cells wide: their middles are at 1 and 3 cells.
+// Two cells of light lie along x. They are two cells wide, so their middles are at 1 and 3 cells.
 TEST(LightGrid, BetweenCellsOfLight) {
   const auto lights = [](std::int64_t x, std::int64_t, std::int64_t) {
     Light light;

@@ -1,4 +1,4 @@
-// Unit vectors and normals: by hand, and against double.
+// Unit vectors and normals are tested by hand, and against double.
 #include "render/rule/normal.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Normal, UnitVectorsByHand) {
   EXPECT_EQ(unit({200, 100, -200}), (Vector{10923, 5461, -10923}));  // 2 1 2, of length 3
 }
 
-// The line between entries errs by 6e-6 at most, an entry by half in 2^14, the result by half in 2^14.
+// The line between entries errs by 6e-6 at most, an entry by half in 2^14, and the result by half in 2^14.
 TEST(Normal, UnitVectorsAreThoseOfDouble) {
   std::mt19937 random(8);
   for (int i = 0; i < 200000; ++i) {

@@ -1,4 +1,4 @@
-// Steps by hand, and the samples in a box against looking at each.
+// Steps are tested by hand, and the samples in a box against a look at each.
 #include "render/rule/ray.h"
 
 #include <gtest/gtest.h>
@@ -12,11 +12,11 @@ namespace voxmelt::picture {
 namespace {
 
 TEST(Ray, StepKeepsTheRatio) {
-  // 3 : -2 : 1 with 3 x 2^30 just below 2^32: shrunk by 2^14, the largest is below a quarter of a cell.
+  // With 3 : -2 : 1, 3 x 2^30 is just below 2^32. Shrunk by 2^14, the largest is below a quarter of a cell.
   const std::int64_t one = std::int64_t{1} << 30;
   EXPECT_EQ(step_along({3 * one, -2 * one, one}, 2), (Vector{3 << 16, -(2 << 16), 1 << 16}));
   EXPECT_EQ(step_along({3 * one, -2 * one, one}, 0), (Vector{3 << 18, -(2 << 18), 1 << 18}));
-  // Rounded up to the whole of the longest step.
+  // The longest step is rounded up to the whole.
   EXPECT_EQ(step_along({(one << 1) - 1, 0, -one}, 1), (Vector{kCell / 2, 0, -kCell / 4}));
 }
 

@@ -1,4 +1,4 @@
-// Places, weights and interpolation: by hand, and against a double interpolation.
+// Places, weights and interpolation are tested by hand, and against a double interpolation.
 #include "render/rule/sample.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Sample, BlendRoundsToNearest) {
   EXPECT_EQ(blended(-32640, 32640, 128), 0);
 }
 
-// A field that is linear in each coordinate: 100 x + 10 y + 1000 z at the centres.
+// The field is linear in each coordinate: 100 x + 10 y + 1000 z at the centres.
 TEST(Sample, LinearFieldByHand) {
   const test::CubeOfLevels levels(4, [](int x, int y, int z) { return 100 * x + 10 * y + 1000 * z; });
   EXPECT_EQ(sample(levels, {kCell / 2, kCell / 2, kCell / 2}), 0);
@@ -54,7 +54,7 @@ TEST(Sample, LinearFieldByHand) {
   EXPECT_EQ(sample(levels, {3 * kCell + kCell / 2, 3 * kCell + kCell / 2, 3 * kCell + kCell / 2}), 3330);
 }
 
-// Each of the three blends rounds by at most 1/2: with the same weights the double is within 3/2. And the
+// Each of the three blends rounds by at most 1/2, so with the same weights the double is within 3/2. The
 // result is never outside the levels around, which lets a skip by ranges change nothing.
 TEST(Sample, IsWithinOneAndAHalfOfTheDouble) {
   std::mt19937 random(6);
@@ -63,7 +63,7 @@ TEST(Sample, IsWithinOneAndAHalfOfTheDouble) {
   std::uniform_int_distribution<std::int64_t> place(-kCell / 2, 5 * kCell + kCell / 2 - 4096);
   for (int i = 0; i < 100000; ++i) {
     const Vector at{place(random), place(random), place(random)};
-    const auto exact = [](std::int64_t a) {  // where the nearest weights are
+    const auto exact = [](std::int64_t a) {  // place of the nearest weights
       const Place p = place_of(a);
       return static_cast<double>(p.cell) + 0.5 + p.weight / 256.0;
     };
@@ -85,7 +85,7 @@ TEST(Sample, IsWithinOneAndAHalfOfTheDouble) {
   }
 }
 
-// The last position in the box still sees a cell of the grid; the next one sees air alone.
+// The last position in the box still sees a cell of the grid. The next one sees air alone.
 TEST(Sample, BoxEndsWhereAllIsAir) {
   const test::CubeOfLevels full(2, [](int, int, int) { return kHalfIntensity; });
   const Vector middle{kCell, kCell, kCell}, low = field_low(), high = field_high(full.cells());

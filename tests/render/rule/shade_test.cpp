@@ -1,4 +1,4 @@
-// Look, tables, tone and shading: by hand, and against double.
+// Look, tables, tone and shading are tested by hand, and against double.
 #include "render/rule/shade.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Tables, SurroundingsByHeight) {
   EXPECT_NEAR(blue(1024), (2250 + 3973) / 2.0 / 4096, 0.003);  // the horizon: half of both
 }
 
-// h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2.
+// The glow is h^1.75, h^4.5 and h^8 with 2.3, 1.15 and 0.2.
 TEST(Tables, GlowIsThatOfDouble) {
   const Glow table = glow_table();
   for (std::size_t i = 0; i < 256; ++i) {
@@ -103,7 +103,8 @@ TEST(Tone, BytesAreThoseOfDouble) {
     EXPECT_EQ(table[static_cast<std::size_t>(i)], std::lround(srgb(i / 4096.0))) << i;
 }
 
-// Straight under the lamp, without ambient light: 1.2 of the lamp's colour; half hidden, half of it.
+// Straight under the lamp, without ambient light, it is 1.2 of the lamp's colour. Half hidden, it is half of
+// that.
 TEST(Shade, LampAloneByHand) {
   Look look;
   const Paint paint = paint_of(look, {{0, 1 << 20, 0}, 0});
@@ -115,7 +116,7 @@ TEST(Shade, LampAloneByHand) {
   EXPECT_NEAR(full[2], 1.2 * 3768, 2);
   light.lamp = 127;
   EXPECT_NEAR(arriving(paint, {0, 16384, 0}, light, false)[1], 1.2 * 4096 * 127 / 256, 2);
-  // From the side light bleeds around: 0.15 of 1.15. From behind nothing arrives.
+  // From the side light bleeds around, by 0.15 of 1.15. From behind nothing arrives.
   light.lamp = 255;
   EXPECT_NEAR(arriving(paint, {16384, 0, 0}, light, false)[1], 1.2 * 4096 * 0.15 / 1.15, 2);
   EXPECT_EQ(arriving(paint, {0, -16384, 0}, light, false)[1], 0);
@@ -135,7 +136,7 @@ TEST(Shade, AmbientLightComesFromSkyAndGround) {
   EXPECT_NEAR(arriving(paint, {0, 16384, 0}, light, false)[1], 4096 * 127 / 256.0, 1);
 }
 
-// Glow of 32 from below is 32 x 6144 / 32 in red.
+// A glow of 32 from below is 32 x 6144 / 32 in red.
 TEST(Shade, GlowArrivesFromItsSide) {
   const Paint paint = paint_of({}, {{0, 1, 0}, 0});
   Light light;
@@ -160,7 +161,7 @@ TEST(Shade, ObstaclesHaveTheirOwnColour) {
   EXPECT_LT(liquid[0], 300);
   EXPECT_NEAR(obstacle[2], 4424 * 2294 / 4096.0,
               100);                      // 2048 and 0.12 of the way to white, under the sky's blue
-  EXPECT_EQ(color({0, 0, 148}), solid);  // a film's worth of obstacle shows nothing of it
+  EXPECT_EQ(color({0, 0, 148}), solid);  // this little of an obstacle does not show
 }
 
 TEST(Antialias, PlacesLieApartAndInTheMiddle) {

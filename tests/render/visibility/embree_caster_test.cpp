@@ -1,4 +1,4 @@
-// Embree's answers against rule::VoxelWalk, by single rays and by packets of 8 and of 16.
+// Embree's answers agree with rule::VoxelWalk, by single rays and by packets of 8 and of 16.
 #include "render/visibility/embree_caster.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(AllEmbreeCasters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
   check_scenes({&one, &eight, &sixteen});
 }
 
-// Through a whole run of melting and of changes by hand, on two threads.
+// The rays are kept through a whole run of melting and of changes by hand, on two threads.
 TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
   Random random(17);
   for (int world = 0; world < 30; ++world) {
@@ -63,7 +63,8 @@ TEST_P(EmbreeCasters, KeptRaysAreAsIfAllWereCast) {
   }
 }
 
-// Two bricks of which one melts away, and one melts partly: boxes by hand, 0.02 wider than the opaque cells.
+// One of two bricks melts away, and one melts partly. The boxes, by hand, are 0.02 wider than the opaque
+// cells.
 TEST_P(EmbreeCasters, BoxesShrinkWithWhatMelts) {
   Volume v(Grid{40, 20, 20});
   for_each({2, 3, 4, 6, 7, 8}, [&](int x, int y, int z) { put_solid(v, x, y, z); });

@@ -1,4 +1,4 @@
-// The ray caster on a DRAM: the same bytes whatever the memory, and what it moved.
+// The ray caster on a DRAM gives the same bytes whatever the memory, and the counts match what it moved.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -84,7 +84,7 @@ TEST(CasterMemory, AnUploadArrivesOnADram) {
   EXPECT_LT(fast.cycles, 5000 * 4 / 3 * 110 / 100);
 }
 
-// Two machines on one DRAM, each with its own bytes: what one writes the other never sees.
+// Two machines share a DRAM, each with its own bytes: neither ever sees what the other one writes.
 TEST(CasterMemory, TwoShareADram) {
   memory::Dram dram(load_memory("ddr4-2400", "test"), 200);
   std::vector<Memory> memories(2);

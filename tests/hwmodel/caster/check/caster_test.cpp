@@ -1,4 +1,4 @@
-// The ray caster in lock-step with the reference of the picture, in hostile pictures and configurations.
+// The ray caster runs in lock-step with the reference of the picture, in hostile pictures and configurations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ TEST(Caster, HostilePictures) {
   }
 }
 
-// Through clear matter: the bytes, and every number of every ray.
+// Through clear matter, the bytes and every number of every ray agree with the reference.
 TEST(Caster, HostileClearPictures) {
   std::int64_t events = 0, rays = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -90,7 +90,7 @@ TEST(Caster, HostileClearPictures) {
   EXPECT_GT(events, 3 * rays) << "hardly any ray goes through matter";
 }
 
-// A bar of clear matter, and an eye that looks along it.
+// Makes a bar of clear matter, and an eye that looks along it.
 test::HostilePicture bar_along_x() {
   test::HostilePicture picture;
   picture.volume = state::Volume(state::Grid{20, 16, 20});
@@ -106,26 +106,26 @@ test::HostilePicture bar_along_x() {
   return picture;
 }
 
-// An eye in air, and then in clear matter, deeper and deeper: a ray that begins in matter crosses no surface
-// before.
+// The eye stands in air, and then deeper and deeper in clear matter. A ray that begins in matter crosses no
+// surface before it leaves.
 TEST(Caster, AnEyeInClearMatterCrossesOneSurface) {
   test::HostilePicture picture = bar_along_x();
   int within = 0;
   for (int i = 0; i < 24; ++i) {
-    picture.camera.distance = 5 + i / 12.0;  // of the target: the surface is about 6 cells from it
+    picture.camera.distance = 5 + i / 12.0;  // the surface is about 6 cells from the target
     const PictureReport report = verify_picture(
         {picture.volume, picture.look, picture.light, picture.terrain, picture.camera, render::Setting::fast},
         {});
     ASSERT_TRUE(report.good()) << i << ": " << text_of(report);
-    for (const StageAccount& stage : report.stages)  // a way, a surface and the background
+    for (const StageAccount& stage : report.stages)  // every ray passes a way, a surface and the background
       if (stage.name == "passed") within += stage.account.busy == 3 * report.rays ? 1 : 0;
   }
   EXPECT_GE(within, 6);
   EXPECT_LT(within, 24);
 }
 
-// An eye in clear matter less than a step from its surface, which is 6 cells from the target: a ray leaves
-// matter between its first two samples. It crosses the surface there, and not at its start.
+// The eye is in clear matter, less than a step from its surface, which is 6 cells from the target. A ray
+// leaves matter between its first two samples. It crosses the surface there, and not at its start.
 TEST(Caster, RaysLeaveClearMatterWithinTheirFirstStep) {
   test::HostilePicture picture = bar_along_x();
   render::DensityField field;
@@ -150,7 +150,7 @@ TEST(Caster, RaysLeaveClearMatterWithinTheirFirstStep) {
   EXPECT_GT(at_once, 300);
 }
 
-// Rays of fewer tiles take turns where matter is clear, and of all tiles where it is not.
+// In clear matter the rays of `clear_tiles` tiles take turns, and in opaque matter those of `tiles` tiles.
 TEST(Caster, ClearMatterHasItsOwnNumberOfTiles) {
   test::HostilePicture picture = bar_along_x();
   picture.camera.width = picture.camera.height = 40;
@@ -171,7 +171,7 @@ TEST(Caster, ClearMatterHasItsOwnNumberOfTiles) {
   EXPECT_NE(cycles(12, 3), cycles(3, 3));
 }
 
-// The accounts of all stages sum up (verify_picture throws otherwise), warm caches change no byte, and in the
+// The accounts of all stages sum up (verify_picture throws otherwise). Warm caches change no byte, and in the
 // second frame lines are still there.
 TEST(Caster, WarmCachesDrawTheSame) {
   test::HostilePicture picture = test::hostile_picture(140, 3000);

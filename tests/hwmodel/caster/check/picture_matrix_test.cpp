@@ -1,5 +1,5 @@
-// The picture's matrix (slow): whole scenes in the middle of their melt, 256 x 256, over the covering array,
-// and the full product at 48 x 48. Prints a line per run, or per scene.
+// The picture's matrix (slow) draws whole scenes in the middle of their melt: the covering array at 256 x
+// 256, and the full product at 48 x 48. It prints a line per run, or per scene.
 #include <cstdint>
 #include <cstdio>
 

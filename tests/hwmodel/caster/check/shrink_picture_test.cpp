@@ -1,4 +1,4 @@
-// A picture that fails is made small while it still fails. What "fails" means, each test says.
+// A picture that fails is made small while it still fails. Each test defines what "fails" means.
 #include "hwmodel/caster/check/shrink_picture.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ PictureCase whole_case() {
   return one;
 }
 
-// Does a case still hold this cell of the scene?
+// Tells whether a case still holds this cell of the scene.
 bool holds(const PictureCase& one, const Cell3& cell) {
   const int x = cell[0] - one.from[0], y = cell[1] - one.from[1], z = cell[2] - one.from[2];
   return one.volume.grid.contains(x, y, z) && one.volume.solid.test(x, y, z);
@@ -43,8 +43,7 @@ int solid(const PictureCase& one) {
   return cells;
 }
 
-// It fails while two cells are there, pixel (23, 11) is drawn, the machine has two channels' depth, and more
-// than one sample is taken.
+// The failure needs two cells, pixel (23, 11), channels of depth 2, and more than one sample a pixel.
 TEST(PictureShrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
   const Cell3 a{4, 5, 6}, b{9, 5, 7};
   int asked = 0;

@@ -14,7 +14,7 @@
 
 namespace voxmelt::hwmodel::raycast {
 
-void PrintTo(const FaultInfo& fault, std::ostream* out) { *out << fault.name; }  // of the test's parameter
+void PrintTo(const FaultInfo& fault, std::ostream* out) { *out << fault.name; }  // names the test's parameter
 
 namespace {
 
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlantedInCaster, testing::ValuesIn(all_faults().be
                            return name;
                          });
 
-// Without a fault they are good: so whoever plants these bugs in the sources sees this test fail.
+// Without a fault these pictures are good. So this test fails if someone plants these bugs in the sources.
 TEST(PlantedInCaster, PicturesThatWereMadeForThemAreGood) {
   for (const Fault fault : {Fault::walk_box, Fault::walk_block, Fault::cache_tag_bits})
     for (const Made& made : made_for(fault)) {

@@ -1,4 +1,4 @@
-// Pictures in which faults of the ray caster strike: hostile ones, and some that are made for a fault.
+// Faults of the ray caster strike in these pictures: some are hostile, and some are made for a fault.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ inline void put_solid(state::Volume& volume, int x, int y, int z, int amount) {
   volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(amount);
 }
 
-// A wall whose surface lies just inside of the blocks of four places. Cell c is place c + 2, so the places 8
-// and 16 are borders of blocks, and the cells there decide how near the surface comes. With corners, they
-// hold something else in each block: in some of them the first sample beyond the border is in matter.
-// Without, no block sticks out of the box of what is occupied.
+// Makes a wall whose surface lies just inside of the blocks of four places. Cell c is place c + 2, so the
+// places 8 and 16 are borders of blocks. The cells there decide how near the surface comes.
+// With corners, those cells hold something else in each block. Then in some blocks the first sample beyond
+// the border is in matter. Without corners, no block sticks out of the box of occupied cells.
 inline Case wall_at_border(int seed, bool corners) {
   Case one;
   one.picture.volume = state::Volume(state::Grid{24, 24, 24});
@@ -33,7 +33,7 @@ inline Case wall_at_border(int seed, bool corners) {
     const int any = corners ? ((y + 2) / 4 * 7 + (z + 2) / 4 + 9 * seed) % 40 * 100 : 2030;
     put_solid(one.picture.volume, x, y, z, x == 6 || x == 14 ? any : 4096);
   });
-  if (corners)  // the box of what is occupied is nearly the grid, and rays leave empty blocks
+  if (corners)  // the box of occupied cells is nearly the grid, and rays leave empty blocks
     for (const int at : {0, 20})
       worlds::for_each({at, at, at, at + 4, at + 4, at + 4},
                        [&](int x, int y, int z) { put_solid(one.picture.volume, x, y, z, 4096); });
@@ -45,7 +45,8 @@ inline Case wall_at_border(int seed, bool corners) {
   return one;
 }
 
-// A wide plate from above, with lines so small that their numbers exceed 4096, and a cache that keeps them.
+// Makes a wide plate seen from above. Its lines are so small that their numbers exceed 4096, and a cache
+// keeps them.
 inline Case wide_plate(int seed) {
   Case one;
   one.picture.volume = state::Volume(state::Grid{72, 10, 72});
@@ -64,7 +65,7 @@ struct Made {
   std::string name;
   Case picture;
 };
-// Pictures without which a fault hardly ever makes a difference.
+// Makes the pictures for those faults that hardly ever make a difference in others.
 inline std::vector<Made> made_for(Fault fault) {
   std::vector<Made> all;
   for (int seed = 0; seed < 12; ++seed) {
@@ -80,7 +81,7 @@ inline bool is_of_clear_matter(Fault fault) {
   return fault >= Fault::stretch_way && fault <= Fault::press_nothing;
 }
 
-// Every second one has no obstacles.
+// Makes a hostile clear picture. Every second one has no obstacles.
 inline test::HostilePicture hostile_clear(std::uint64_t seed) {
   test::HostilePicture picture = test::hostile_clear_picture(seed, 3000);
   if (seed % 2 == 1) return picture;

@@ -1,5 +1,5 @@
-// After each step only what changed is sent to the ray caster's memory. What it holds then is compared, place
-// by place, with the field of a fresh picture, which knows nothing of changes.
+// After each step only changes are sent to the ray caster's memory. Its contents are then compared, place by
+// place, with the field of a fresh picture, which knows nothing of changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::uint32_t kSmall = 300;  // the step at which bunny_small melts everywhere
 
-// A scene that steps, and the pictures of it, told of changes.
+// Steps a scene and draws pictures of it, which are told of its changes.
 class Melt {
  public:
   Melt(const std::string& name, std::uint32_t ahead, const std::vector<std::string>& overrides = {})
@@ -121,7 +121,7 @@ TEST_P(UploadOf, FiftyStepsOfChangedBricksMakeTheFieldByteForByte) {
   EXPECT_GT(bytes[1], 0);
   EXPECT_GT(bytes[2], 0);
   EXPECT_LT(sum_of(bytes), 50 * sum_of(whole.bytes));
-  // Seen with --gtest_output: what docs/hardware/pipeline.md tells.
+  // These numbers show with --gtest_output, and docs/hardware/pipeline.md quotes them.
   RecordProperty("whole_bytes", std::to_string(sum_of(whole.bytes)));
   RecordProperty("whole_cycles", std::to_string(whole.cycles));
   RecordProperty("level_bytes", std::to_string(bytes[0] / 50));
@@ -184,7 +184,7 @@ TEST(Upload, AForgottenBrickIsFoundWithItsStep) {
   }
 }
 
-// What is sent in step `at`, told by one that sends it well.
+// Returns the bricks with other bytes that a correct uploader sends in step `at`.
 std::vector<SentBrick> bricks_sent(const Configuration& configuration, int at) {
   Melt melt("bunny_small", kSmall);
   Uploader uploader{configuration};
@@ -200,8 +200,8 @@ std::vector<SentBrick> bricks_sent(const Configuration& configuration, int at) {
   return sent;
 }
 
-// A brick that comes to the place of the next one is found with its step: it is old there, or the next one is
-// another.
+// A brick that is put in the place of the next one is found with its step: its own place is old, or the next
+// one is wrong.
 TEST(Upload, AMisplacedBrickIsFoundWithItsStep) {
   for (const bool apron : {false, true}) {
     Configuration configuration;
@@ -230,8 +230,8 @@ TEST(Upload, AMisplacedBrickIsFoundWithItsStep) {
   }
 }
 
-// Caches that hold all, and are not told of one brick that was sent: lock-step finds an old word in it, or
-// the picture does not need it. A brick whose words it needs, but for which the caches are told, is never
+// The caches hold all, and are not told of one brick that was sent. Lock-step finds an old word in it, or the
+// picture does not need it. If the caches are told of a brick whose words the picture needs, it is never
 // found.
 TEST(Upload, ABrickOfWhichTheCachesAreNotToldIsFoundInTheNextPicture) {
   PictureOptions options;
@@ -271,7 +271,8 @@ TEST(Upload, ABrickOfWhichTheCachesAreNotToldIsFoundInTheNextPicture) {
   EXPECT_LT(levels, found);
 }
 
-// The same memory, when bricks hold their aprons, lines are as large as bricks, or stalls delay the bursts.
+// Memory holds the field, too, when bricks hold their aprons, lines are as large as bricks, or stalls delay
+// the bursts.
 TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
   for (const int bits : {1, 2, 3})
     for (const bool apron : {false, true}) {
@@ -292,7 +293,7 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
     }
 }
 
-// Air becomes solid or liquid: matter's bytes are 0 in the one, and not in the other.
+// Turns air into solid or liquid, or back. The bytes of matter are 0 in the one case, and not in the other.
 void toggle_cell(state::Volume& volume, int x, int y, int z) {
   std::uint16_t& amount = volume.amount[volume.at(x, y, z)];
   const bool fill = amount == 0, liquid = fill && (x + y + z) % 2 == 0;
@@ -301,8 +302,8 @@ void toggle_cell(state::Volume& volume, int x, int y, int z) {
   amount = fill ? 4096 : 0;
 }
 
-// Bricks of one cell that turn around which comes first: in the second update a brick is stored before the
-// others, whose places in memory change. Where matter keeps its old table, or does not, is seen at once.
+// Single cells make bricks, in changing order: in the second update a brick is stored before the others,
+// whose places in memory change. An old table of matter's bricks is found at once.
 TEST(Upload, AnOldTableOfBricksIsFoundWithItsStep) {
   scene::Look look;
   look.smooth = look.smooth_solid = 0;
@@ -332,7 +333,7 @@ TEST(Upload, AnOldTableOfBricksIsFoundWithItsStep) {
   }
 }
 
-// Bounds of the ground are compared with what each column demands: of each block, each of the three, and of
+// The bounds of the ground are compared with the demand of each column: the three of each block, and those of
 // the blocks of 16 x 16 cells.
 TEST(Upload, AWrongBoundOfTheGroundIsFound) {
   const Melt melt("lava", 0);
@@ -363,8 +364,8 @@ TEST(Upload, AWrongBoundOfTheGroundIsFound) {
   EXPECT_EQ(found(wrong), "bound of heights, 16 x 16 cells");
 }
 
-// Lone cells at the sides of bricks come and go, without any filter: bricks are stored anew in rooms of
-// others, and an apron holds what no other listed brick has.
+// Lone cells at the sides of bricks come and go, without any filter. Bricks are then stored in the old rooms
+// of others, and an apron holds cells that no other listed brick has.
 TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
   scene::Look look;
   look.smooth = look.smooth_solid = 0;
@@ -403,7 +404,7 @@ TEST(Upload, LoneCellsThatComeAndGoAreWhereTheyShouldBe) {
   }
 }
 
-// A vent fills an empty grid: bricks begin to be stored, until there is no room for them.
+// A vent fills an empty grid. More and more bricks are stored, until there is no room for them.
 TEST(Upload, WhereThereIsNoRoomForMoreBricksAllIsSentAnew) {
   Melt melt("lesson_piling", 0);
   Uploader uploader{Configuration{}};

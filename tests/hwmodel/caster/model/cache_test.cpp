@@ -1,5 +1,5 @@
-// Cache and fetch, alone. The cache is held against lists that keep what was used last in front. The fetch is
-// held against a plain reading of the same places, in the order of the requests.
+// Cache and fetch are tested alone. The cache is compared with lists that keep the last used line in front,
+// the fetch with a plain reading of the same places, in the order of the requests.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
        {std::pair{1, 1}, std::pair{1, 4}, std::pair{8, 1}, std::pair{4, 2}, std::pair{16, 4}}) {
     Cache cache({sets, ways, 4, 64});
     std::vector<std::list<std::int64_t>> lists(static_cast<std::size_t>(sets));
-    std::map<std::int64_t, int> slots;  // of lines that have a tag
+    std::map<std::int64_t, int> slots;  // lines that have a tag
     std::mt19937 random(31);
     std::int64_t misses = 0;
     for (int n = 0; n < 20000; ++n) {
@@ -73,7 +73,7 @@ TEST(RaycastCache, HitsAndMissesAreThoseOfLists) {
   }
 }
 
-// Slots that lost their tag are no room before they are given back.
+// A slot that lost its tag gives no room before it is released.
 TEST(RaycastCache, ALostLineKeepsItsSlotUntilItIsGivenBack) {
   Cache cache({1, 2, 2, 4});
   std::vector<int> lost;
@@ -99,7 +99,7 @@ using Word = std::uint16_t;
 using TestGather = Gather<Ask, Word, 27>;
 constexpr Word kAbsent = 9;
 
-// A volume of bricks, of which every third one is stored, with a word of its own in each place.
+// Holds a volume of bricks. Every third one is stored, with a word of its own in each place.
 struct World {
   explicit World(bool apron, int bits) {
     layout.sparse = true;
@@ -162,7 +162,7 @@ struct Fetched {
   std::int64_t cycles = 0, misses = 0;
 };
 
-// A memory that answers after a while, channels that stall, and requests of two and three places a side.
+// The memory answers after `latency` cycles, channels stall, and requests have two and three places a side.
 Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_seed, int latency, int count) {
   TestGather gather("words", shape, world.layout, 3, kAbsent, 5);
   Fifo<Ask> in("in", 0, 1, 2, stall_seed);
@@ -215,7 +215,7 @@ Fetched run(const World& world, const CacheShape& shape, std::uint64_t stall_see
     gather.data.run();
     gather.tags.run();
     if (put < count && in.ready()) {
-      // Near the request before, as samples of a ray are; now and then somewhere else.
+      // A request is near the one before, as samples of a ray are, and now and then somewhere else.
       const auto walk = [&](int at) { return std::clamp(at + static_cast<int>(random() % 3) - 1, 1, 20); };
       x = walk(x);
       y = walk(y);

@@ -1,5 +1,5 @@
-// The wires of the ray caster's channels: every number that runs over them in hostile pictures fits, and
-// every channel and stage of a pipe has its row.
+// Every number that runs over the ray caster's channels in hostile pictures fits its wire. Every channel and
+// stage of a pipe has its row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// Checks what enters a channel.
+// Checks that every number that enters a channel fits its wire.
 template <class Token>
 class Fits : public FifoWatcher<Token> {
  public:
@@ -113,7 +113,7 @@ struct AllFit {
   Fits<OnwardToken> onward;
 };
 
-// What a hostile picture is drawn from.
+// Holds the data from which a hostile picture is drawn.
 struct Drawn {
   Drawn(const test::HostilePicture& picture, const Configuration& c) : uploader(c) {
     field.update(picture.volume, picture.look, picture.terrain, 1);
@@ -133,7 +133,7 @@ test::HostilePicture picture_of(std::uint64_t seed, bool clear) {
   return picture;
 }
 
-// Of opaque matter, and of clear matter.
+// The parameter chooses clear matter (true) or opaque matter.
 class CostOf : public testing::TestWithParam<bool> {};
 
 TEST_P(CostOf, EveryNumberFitsItsWire) {
@@ -191,7 +191,7 @@ TEST_P(CostOf, EveryChannelAndStageHasItsRow) {
 INSTANTIATE_TEST_SUITE_P(Matter, CostOf, testing::Bool(),
                          [](const auto& chosen) { return std::string(chosen.param ? "Clear" : "Opaque"); });
 
-// By hand: two sets of two lines and eight to spare, 12 slots of four bits.
+// By hand, the cache has two sets of two lines and eight to spare, so 12 slots of four bits.
 TEST(Cost, ACacheIsItsLinesTagsAndQueue) {
   const test::HostilePicture picture = test::hostile_picture(3, 3000);
   Configuration c;

@@ -1,6 +1,6 @@
-// The ray caster's arithmetic up to the normal, alone. Expected numbers are those of the worked pixel
-// (docs/picture/trace.md, section 4) and of the worked ray (docs/picture/definition.md, section 11), or those
-// of plain loops below.
+// The ray caster's arithmetic up to the normal is tested alone. Expected numbers come from the worked pixel
+// (docs/picture/trace.md, section 4), the worked ray (docs/picture/definition.md, section 11), or plain loops
+// below.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST(RaycastRay, TheWorkedRayLooksAlongAnAxis) {
   EXPECT_EQ(ray.step, (Vec{0, 0, -262144}));
 }
 
-// b by a search instead of a count of zeros; rounding by an exact quotient.
+// The test finds b by a search instead of a count of zeros, and rounds by an exact quotient.
 TEST(RaycastRay, StepsAreTheDirectionsToNearest) {
   std::mt19937_64 random(5);
   std::uniform_int_distribution<std::int64_t> unit(-(std::int64_t{1} << 30), std::int64_t{1} << 30);
@@ -96,7 +96,7 @@ TEST(RaycastRay, StepsAreTheDirectionsToNearest) {
   }
 }
 
-// The page's rows; and no two samples share a row or a column.
+// The rows are the page's, and no two samples share a row or a column.
 TEST(RaycastRay, PlacesOfSamplesInAPixel) {
   EXPECT_EQ(sub_of(1, 0).across, 32);
   EXPECT_EQ(sub_of(1, 0).down, 32);
@@ -117,7 +117,7 @@ TEST(RaycastRay, PlacesOfSamplesInAPixel) {
   EXPECT_EQ(sub_of(32, 31).down, 37);
 }
 
-// floor(way / d) is never exceeded, and missed by less than a 500th and one.
+// The steps never exceed floor(way / d), and fall short of it by at most a 500th and one.
 TEST(RaycastRay, AWayIsNeverTooManySteps) {
   std::mt19937_64 random(6);
   for (int n = 0; n < 200000; ++n) {
@@ -146,7 +146,7 @@ constexpr std::array<Worked, 10> kSamples{{{5, -32180, {-1, 3, 2}},
                                            {13, -510, {0, 3, 1}},
                                            {14, 3315, {0, 3, 0}}}};
 
-// The worked pixel's grid: four full cells a side.
+// The worked pixel's grid has four full cells a side.
 std::int16_t worked_level(std::int64_t x, std::int64_t y, std::int64_t z) {
   const bool in = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < 4;
   return static_cast<std::int16_t>(in ? kFull : -kFull);
@@ -176,8 +176,8 @@ TEST(RaycastField, TheWorkedPixelsSamples) {
   EXPECT_EQ(weight_of(seventh.z), 99);
 }
 
-// Eight different levels, so that a swap of two of them shows. Blended in floating point, a sample errs by
-// 3/2; the hand's numbers are exact.
+// The eight levels differ, so that a swap of two of them shows. A sample errs by 3/2 against a blend in
+// floating point, but the numbers by hand are exact.
 TEST(RaycastField, EachLevelHasItsWeight) {
   const std::array<std::int16_t, 8> levels{-30000, 12345, 777, -4096, 31000, -150, 8191, 20000};
   EXPECT_EQ(sample_of(levels.data(), {0, 0, 0}), -30000);
@@ -186,8 +186,9 @@ TEST(RaycastField, EachLevelHasItsWeight) {
     const std::int64_t level = sample_of(levels.data(), {far(0), far(1), far(2)});
     EXPECT_LE(std::abs(level - levels[i]), 3 * 65280 / 256 + 2) << i;
   }
-  // Weights 64, 128, 192. Along x: -30000 (3/4) + 12345/4 -> -19414; 777 and -4096 -> -441; 31000 and -150
-  // -> 23213; 8191 and 20000 -> 11143. Along y: -9927 and 17178. Along z: -9927/4 + 17178 (3/4) -> 10402.
+  // The weights are 64, 128, 192. Along x, -30000 (3/4) + 12345/4 -> -19414; 777 and -4096 -> -441; 31000 and
+  // -150 -> 23213; 8191 and 20000 -> 11143. Along y they give -9927 and 17178. Along z, -9927/4 + 17178 (3/4)
+  // -> 10402.
   EXPECT_EQ(sample_of(levels.data(), {64 << 12, 128 << 12, 192 << 12}), 10402);
 }
 
@@ -209,7 +210,7 @@ TEST(RaycastField, TheWorkedPixelsCrossing) {
   EXPECT_EQ(crossing.position, (Vec{798690, 4196021, 1660166}));
 }
 
-// The worked ray: the first middle is air, the second matter, the third air: e = 101 in bits.
+// The worked ray's first middle is air, the second matter, the third air, so e = 101 in bits.
 TEST(RaycastField, TheWorkedRaysCrossing) {
   const auto at = [](std::int64_t z) { return to_lattice({33554432, 33554432, z}); };
   Bracket bracket{at(67829760 - 2 * 262144), at(67829760 - 3 * 262144), -12240, 4080, 0};
@@ -222,7 +223,7 @@ TEST(RaycastField, TheWorkedRaysCrossing) {
   const Crossing crossing = crossing_of(bracket, 3);
   EXPECT_EQ(crossing.position.z, 67108864);
   EXPECT_EQ(crossing.part, 5 * 256 + 256);
-  // Between -100 and 301: f = 25600 / 401 = 63, and (4096 x 63) >> 8 = 1008 of the way.
+  // Between -100 and 301, f = 25600 / 401 = 63, and (4096 x 63) >> 8 = 1008 of the way.
   const Crossing other = crossing_of({at(0), at(-4096), -100, 301, 2}, 9);
   EXPECT_EQ(other.position.z, -1008);
   EXPECT_EQ(other.part, 512 + 63);
@@ -241,7 +242,7 @@ TEST(RaycastField, TheWorkedPixelsNormal) {
   EXPECT_EQ(slope.normal, (Vec{-1992, 16262, 0}));
 }
 
-// Three plain passes over an array that shrinks, in the words of the page.
+// The slope comes from three plain passes over an array that shrinks, in the words of the page.
 Vec plain_slope(const std::array<std::int16_t, 27>& levels, Vec position) {
   std::array<std::array<std::array<std::int64_t, 3>, 2>, 3> weights{};  // [axis][value, slope]
   const std::array<std::int64_t, 3> p{position.x, position.y, position.z};
@@ -288,8 +289,8 @@ TEST(RaycastField, TheWorkedVectorsOfLength1) {
   EXPECT_EQ(unit_of({-15949, 15680, 21742}), (Vec{-8378, 8236, 11420}));
   EXPECT_EQ(unit(Vec{-3889, 31747, 0}), (Vec{-1992, 16262, 0}));
   EXPECT_EQ(unit_of({}), (Vec{}));
-  // 17 bits are shifted by 3: (8193, 5000, -1), whose last component is 16384 / 9598 = 1.7 and not half of
-  // it.
+  // The vector has 17 bits and is shifted by 3, to (8193, 5000, -1). Its last component is 16384 / 9598 = 1.7
+  // and not half of it.
   EXPECT_EQ(unit_of({65551, 40007, -1}).z, -2);
   EXPECT_EQ(kInverseRoot[508 - 128], 16448);
   EXPECT_EQ(kInverseRoot[509 - 128], 16432);
@@ -297,8 +298,8 @@ TEST(RaycastField, TheWorkedVectorsOfLength1) {
   EXPECT_EQ(kInverseRoot[512 - 128], 16384);
 }
 
-// Every component within 1.6 of the true one (docs/picture/definition.md, section 8); a shift of large
-// vectors costs one 2^14th of the largest component more.
+// Every component is within 1.6 of the true one (docs/picture/definition.md, section 8). A shift of large
+// vectors costs another 2^-14 of the largest component.
 TEST(RaycastField, LengthsAreThoseOfRealNumbers) {
   std::mt19937_64 random(8);
   for (int n = 0; n < 100000; ++n) {

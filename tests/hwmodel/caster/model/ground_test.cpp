@@ -1,4 +1,5 @@
-// The ray caster's ground, alone: the worked ray of docs/picture/ground.md, section 9, and hand computations.
+// The ray caster's ground is tested alone, by the worked ray of docs/picture/ground.md, section 9, and by
+// hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ Registers slab(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t high
   return registers;
 }
 
-// Two columns along x, one along z: outside the nearest one.
+// The grid has two columns along x and one along z. Outside, the nearest column counts.
 std::int64_t worked_height(Vec p) {
   const auto column = [](std::int64_t i) { return std::int64_t{i <= 0 ? 32768 : 16384}; };
   const Spot x = spot_of(p.x), z = spot_of(p.z);
@@ -64,7 +65,7 @@ TEST(RaycastGround, TheWorkedRay) {
   EXPECT_EQ(face_of(registers, at_part(ray, outside)), Face::top);
 }
 
-// Between four heights by hand: 100 and 300 by 64/256 are 150, 500 and 1000 are 625; by 192/256 they are 506.
+// By hand, 100 and 300 at 64/256 give 150, and 500 and 1000 give 625. These two at 192/256 give 506.
 TEST(RaycastGround, AHeightIsBlendedAlongXAndThenZ) {
   const std::array<std::int64_t, 4> columns{100, 300, 500, 1000};
   const auto value = [&](std::size_t n) { return columns[n]; };
@@ -72,15 +73,16 @@ TEST(RaycastGround, AHeightIsBlendedAlongXAndThenZ) {
   EXPECT_EQ(between_columns(value, {0, 0}, {0, 0}), 100);
 }
 
-// Sixteen columns from (5, -1) on: entry 4 z + x has 100 (4 z + x)^2.
+// The sixteen columns begin at (5, -1). Entry 4 z + x has 100 (4 z + x)^2.
 TEST(RaycastGround, SixteenColumnsHoldAPlaceAndHalfACellAround) {
   NearColumns columns{5, -1, {}};
   for (std::int32_t i = 0; i < 16; ++i) columns.columns[static_cast<std::size_t>(i)] = {100 * i * i, -i};
-  // Position of cell c and weight w: c + 1/2 cells and w 2^12.
+  // The position for cell c and weight w is c + 1/2 cells and w 2^12.
   const auto place = [](std::int64_t cell, std::int64_t weight) {
     return cell * kOne + kOne / 2 + (weight << 12);
   };
-  // Entries 5, 6, 9 and 10: 2500 and 3600 are 3050, 8100 and 10000 are 9050; a quarter on 4550.
+  // Entries 5, 6, 9 and 10 count. 2500 and 3600 give 3050, 8100 and 10000 give 9050, and a quarter on is
+  // 4550.
   EXPECT_EQ(columns.height(&Column::drawn, place(6, 128), place(0, 64)), 4550);
   EXPECT_EQ(columns.height(&Column::drawn, place(5, 0), place(-1, 0)), 0);
   EXPECT_EQ(columns.height(&Column::drawn, place(6, 0), place(-1, 0)), 100);
@@ -121,7 +123,7 @@ TEST(RaycastGround, TheFirstAndTheLastPartAreThoseOfAPlainSearch) {
   EXPECT_GT(found, 200);
 }
 
-// Part 1024 of a quarter of a cell a step is exactly on the high side, which is outside; so is the start of
+// At a quarter of a cell a step, part 1024 is exactly on the high side, which is outside. So is the start of
 // the way back.
 TEST(RaycastGround, TheHighSideIsOutside) {
   const Registers registers = slab(1, 1, 1, 4096);
@@ -158,8 +160,8 @@ TEST(RaycastGround, FacesInTheirOrder) {
   EXPECT_TRUE(in_slab(registers, {2 * kOne - 1, 0, 3 * kOne - 1}));
 }
 
-// Random columns: from one sample to the next, the distance straight down shrinks by no more than `approach`,
-// but for what the margin covers.
+// In random columns, the distance straight down shrinks by no more than `approach` from one sample to the
+// next, apart from what the margin covers.
 TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
   std::mt19937_64 random(22);
   int near = 0;
@@ -206,8 +208,8 @@ TEST(RaycastGround, ARayComesNoNearerThanItsApproach) {
   EXPECT_GT(near, 20);  // some come almost so near
 }
 
-// Six columns along x, one along z: 0, 4096, 4096, 0, 0, 12345. Block 0 reads columns 0 .. 4, block 1 those
-// from 3 on. Bounds are rounded up to 64: 12345 becomes 193.
+// Six columns along x, and one along z, hold 0, 4096, 4096, 0, 0, 12345. Block 0 reads columns 0 .. 4, and
+// block 1 those from 3 on. Bounds are rounded up to 64, so 12345 becomes 193.
 TEST(RaycastGround, BoundsOfBlocksByHand) {
   const std::array<std::int64_t, 6> heights{0, 4096, 4096, 0, 0, 12345};
   const GroundBlocks blocks =
@@ -218,8 +220,9 @@ TEST(RaycastGround, BoundsOfBlocksByHand) {
   EXPECT_EQ(blocks.coarse, (std::vector<std::int32_t>{193}));
 }
 
-// Block 0 has bound 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample: 4 samples. By
-// its quarter of a cell along x it would stay for 9 more from 3/2 on: the last one is at 15/4.
+// Block 0 has a bound of 2 cells, and the ray is 2 1/2 cells high. It falls by 1/8 cell a sample, so 4
+// samples pass. By its quarter of a cell along x it would stay for 9 more from 3/2 on: the last one is at
+// 15/4.
 TEST(RaycastGround, SamplesAboveABlockByHand) {
   GroundBlocks blocks;
   blocks.x = blocks.z = 1;
@@ -238,7 +241,7 @@ TEST(RaycastGround, SamplesAboveABlockByHand) {
   EXPECT_EQ(from({3 * half, 4 * half - 1, kOne}, {0, eighth, 0}), std::nullopt);
 }
 
-// Random columns and rays: no sample that is left out lies in the ground, and many are.
+// In random columns and rays, no sample that is left out lies in the ground, and many are left out.
 TEST(RaycastGround, NoSampleIsLeftOutInTheGround) {
   std::mt19937_64 random(23);
   std::int64_t above = 0, over = 0, next = 0;
@@ -304,7 +307,7 @@ void expect_near(Vec vector, Vec expected) {
   EXPECT_LE(largest(vector - expected), 2) << vector.x << " " << vector.y << " " << vector.z;
 }
 
-// 16384 / sqrt 2 = 11585; 2048 : 4096 has 16384 / sqrt 5 = 7327 and 14654.
+// 16384 / sqrt 2 is 11585. For 2048 : 4096 it is 16384 / sqrt 5 = 7327, and 14654.
 TEST(RaycastGround, NormalsOfTheTopByHand) {
   const Registers registers = slab(2, 8, 2, 4096);
   const Vec middle{kOne, kOne, kOne};
@@ -318,7 +321,7 @@ TEST(RaycastGround, NormalsOfTheTopByHand) {
   EXPECT_EQ(top_normal(registers, middle, {1 << 20, 0, 209, 9}).z, 2);  // 200 becomes 1 of 8192
 }
 
-// At half a cell the table of quarters is read at 2: half way between entries 1 and 2, -500. A bend of an
+// At half a cell the table of quarters is read at 2, half way between entries 1 and 2: -500. A bend of an
 // eighth of a cell leads to entry 2. 2540 + (41 x -500 >> 8) = 2459; 2540 + (41 x -3000 >> 8) = 2059.
 TEST(RaycastGround, ColoursOfTheCutByHand) {
   GroundRegisters ground;

@@ -1,4 +1,4 @@
-// The exact parts of the ray caster's closed form, over many machines and pictures.
+// The exact parts of the ray caster's closed form hold over many machines and pictures.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// Pixels of the first pass that differ by more than `most` from one beside them.
+// Counts the pixels of the first pass that differ by more than `most` from a neighbour.
 std::int64_t differing(const render::Image& image, int most) {
   const auto far = [&](int x, int y, int nx, int ny) {
     if (nx < 0 || ny < 0 || nx >= image.width || ny >= image.height) return false;

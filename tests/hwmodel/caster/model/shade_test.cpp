@@ -1,5 +1,5 @@
-// The ray caster's colours, alone: the worked pixel (docs/picture/trace.md, section 4), and hand computations
-// of what it does not show: glow, obstacles, and each of eight neighbours.
+// The ray caster's colours are tested alone, by the worked pixel (docs/picture/trace.md, section 4). Hand
+// computations add what it does not show: glow, obstacles, and each of eight neighbours.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-// Entry i is power(32 i, shininess) >> 3 (picture-light.md, section 2): squared from the highest bit down.
+// Entry i is power(32 i, shininess) >> 3 (picture-light.md, section 2), squared from the highest bit down.
 std::array<std::uint16_t, 1026> highlights(unsigned shininess) {
   std::array<std::uint16_t, 1026> values{};
   for (std::int64_t i = 0; i < 1026; ++i) {
@@ -63,10 +63,11 @@ TEST(RaycastShade, TheWorkedPixelsMatter) {
   EXPECT_EQ(at.y.cell, 3);
 }
 
-// Weights 64, 128, 192. Liquid: 10 and 90 are 30, 40 and 200 are 80, 0 and 100 are 25, 7 and 255 are 69. Then
-// 55 and 47, then 49. Heat has the same numbers in reverse order: 255 and 7 are 193, 100 and 0 are 75, 200
-// and 40 are 160, 90 and 10 are 70. Then 134 and 115, then 120. Obstacle: only the last corner, 255: 64,
-// 32, 24.
+// The weights are 64, 128, 192. Liquid: 10 and 90 give 30, 40 and 200 give 80, 0 and 100 give 25, 7 and 255
+// give 69. These give 55 and 47, and then 49.
+// Heat has the same numbers in reverse order: 255 and 7 give 193, 100 and 0 give 75, 200 and 40 give 160, 90
+// and 10 give 70. These give 134 and 115, and then 120. Only the last corner has an obstacle, 255: it gives
+// 64, 32, 24.
 constexpr std::array<std::uint32_t, 8> kBytes{10, 90, 40, 200, 0, 100, 7, 255};
 constexpr Spots kAt{{0, 64}, {0, 128}, {0, 192}};
 
@@ -89,7 +90,7 @@ TEST(RaycastShade, TheWorkedPixelsLight) {
   EXPECT_EQ(light_of(words.data(), {{-1, 194}, {2, 126}, {0, 75}}, false), worked_light());
 }
 
-// Each byte in turn is the one that is not 0.
+// One byte after another is the only one that is not 0.
 TEST(RaycastShade, EachByteOfLightHasItsPlace) {
   for (std::size_t byte = 0; byte < 14; ++byte)
     for (const bool glow : {false, true}) {
@@ -104,7 +105,7 @@ TEST(RaycastShade, EachByteOfLightHasItsPlace) {
     }
 }
 
-// (11585 x 11585) >> 14 = 8191. 8191 x 100 + 8191 x 200 is 149 x 2^14 and a rest.
+// (11585 x 11585) >> 14 is 8191. 8191 x 100 + 8191 x 200 is 149 x 2^14 and a rest.
 TEST(RaycastShade, SidesAreSeenByTheSignOfADirection) {
   const std::array<std::int32_t, 6> sides{11, 22, 33, 100, 200, 66};
   EXPECT_EQ(seen(sides, {16384, 0, 0}), 11);
@@ -117,8 +118,8 @@ TEST(RaycastShade, SidesAreSeenByTheSignOfADirection) {
   EXPECT_EQ(seen({255, 255, 255, 255, 255, 255}, {16500, 0, 300}), 255);  // a little longer than it should be
 }
 
-// A normal of 16385 downwards, and no light from below: 963 x (16384 - 16385) is -1 when it is shifted down.
-// What is scattered of it is -1, too.
+// The normal points down with 16385, and no light comes from below. 963 x (16384 - 16385), shifted down, is
+// -1. The light that is scattered of it is -1, too.
 TEST(RaycastShade, ANormalThatIsTooLongMayGetLessThanNoLight) {
   LookRegisters look = worked_look();
   look.to_light = {0, 16384, 0};
@@ -164,8 +165,9 @@ TEST(RaycastShade, TheWorkedPixelsColour) {
   EXPECT_EQ(matter_color(arriving, mixture, mirrored), (Rgb{1752, 2971, 4319}));
 }
 
-// l = 16 x 128 + 8 = 2056, w = 73 x 22 = 1606. Red: 1000 + 1004 = 2004, with crust 50 more, then 784 less.
-// Mirror: 100 + 201 + 392. Highlight: 0 + 1004 - 384. Gloss: 10 + 1004 - 392. Emission: 2007, of which 2490.
+// l = 16 x 128 + 8 = 2056, and w = 73 x 22 = 1606. Red is 1000 + 1004 = 2004, with crust 50 more, then 784
+// less. Mirror: 100 + 201 + 392. Highlight: 0 + 1004 - 384. Gloss: 10 + 1004 - 392. Emission: 2490/4096 of
+// 2007.
 TEST(RaycastShade, GlowAndObstaclesAreMixedIn) {
   LookRegisters look;
   look.solid = {{1000, 1000, 1000}, {100, 100, 100}, {0, 0, 0}, 10};
@@ -192,8 +194,8 @@ TEST(RaycastShade, GlowAndObstaclesAreMixedIn) {
   EXPECT_EQ(mixture_of(look, {0, 200, 255}).w, 4096);
 }
 
-// facing is 16384, lit (18842 x 14247) >> 14 = 16384 of which 100/256 are 6400. From above 900, of which
-// 77/256 are 270. Lamp: 781, 390, 0. Glow by 9/32: 1728, 552, 103.
+// facing is 16384, and lit is (18842 x 14247) >> 14 = 16384, of which 100/256 are 6400. From above come 900,
+// of which 77/256 are 270. The lamp gives 781, 390, 0. Glow by 9/32 gives 1728, 552, 103.
 TEST(RaycastShade, GlowArrivesWhereItIsAskedFor) {
   LookRegisters look;
   look.to_light = {0, 16384, 0};
@@ -207,12 +209,12 @@ TEST(RaycastShade, GlowArrivesWhereItIsAskedFor) {
   const Vec up{0, 16384, 0};
   EXPECT_EQ(arriving_of(look, up, light, false).light, (Rgb{1051, 660, 270}));
   EXPECT_EQ(arriving_of(look, up, light, true).light, (Rgb{2779, 1212, 373}));
-  // From below: facing -16384 is far behind the edge, and the other side of openness counts: (5 x 3) >> 8.
+  // From below, facing -16384 is far behind the edge. The other side of openness counts: (5 x 3) >> 8.
   EXPECT_EQ(arriving_of(look, {0, -16384, 0}, light, false).light, (Rgb{0, 0, 0}));
 }
 
-// The mirrored eye looks straight up. Half way between the tables 2500; with 129/256 of the lamp 1259. Where
-// the surface turns from the lamp, smooth(0, 1024, 512) is a half.
+// The mirrored eye looks straight up. Half way between the tables is 2500, and 129/256 of the lamp make it
+// 1259. Where the surface turns from the lamp, smooth(0, 1024, 512) is a half.
 TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   LookRegisters look;
   look.to_light = {0, 16384, 0};
@@ -245,7 +247,8 @@ TEST(RaycastShade, HighlightsOfObstaclesAndOfTheEdge) {
   EXPECT_EQ(highlight_at(table, 9193), 182);  // 574 x 16 + 9: 160 + (40 x 9) / 16
 }
 
-// 4096 + 100 + 1274 + 405: fresnel is 1000 + 1548, and a lone emission has (500 x (2540 + 778)) >> 12.
+// The sum is 4096 + 100 + 1274 + 405. The fresnel term is 1000 + 1548, and a lone emission has (500 x (2540 +
+// 778)) >> 12.
 TEST(RaycastShade, TheFourTermsOfAColourByHand) {
   Arriving arriving;
   arriving.light = {8192, 0, 0};

@@ -1,4 +1,4 @@
-// The order in which tiles are dealt: by hand, and each of them once.
+// The order in which tiles are dealt is that by hand, and each tile is dealt once.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -22,11 +22,11 @@ std::string order_of(int tiles_x, int tiles_y, int bands) {
 
 TEST(RaycastTiles, OneBandGoesRowByRow) { EXPECT_EQ(order_of(3, 2, 1), "00 10 20 01 11 21 "); }
 
-// Two bands of four tiles in a row: the second one begins in the middle of its row. Places take turns in
-// which band is the first one.
+// Two bands each have four tiles. The second band begins in the middle of its row. The two take turns in
+// being the first one.
 TEST(RaycastTiles, TwoBandsByHand) { EXPECT_EQ(order_of(4, 2, 2), "00 21 31 10 20 01 11 30 "); }
 
-// Three rows in two bands: the second band has one row.
+// Three rows are cut into two bands, and the second band has one row.
 TEST(RaycastTiles, TheLastBandMayBeLower) { EXPECT_EQ(order_of(2, 3, 2), "00 12 02 10 01 11 "); }
 
 TEST(RaycastTiles, EachTileIsDealtOnce) {

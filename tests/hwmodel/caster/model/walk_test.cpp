@@ -1,4 +1,4 @@
-// What a ray leaves out, against a plain walk through every sample: never one too many.
+// The samples that a ray leaves out are compared with a plain walk through every sample: never one too many.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Random {
   std::mt19937_64 random_;
 };
 
-// A step of 2^-spacing cells: the largest component in magnitude is more than half of that, or is it.
+// Makes a step of 2^-spacing cells. Its largest component in magnitude is more than half of that, or is it.
 Vec random_step(Random& random, int spacing) {
   const std::int64_t most = std::int64_t{1} << (20 - spacing);
   std::array<std::int64_t, 3> values{};
@@ -118,7 +118,7 @@ TEST(RaycastWalk, NoSampleThatIsLeftOutIsReachBlocksAway) {
   }
 }
 
-// At the last place before a side of the block, and on it.
+// The walker stands at the last place before a side of the block, and on it.
 TEST(RaycastWalk, StepsOutAtTheSidesOfABlock) {
   const std::int64_t block = std::int64_t{1} << 22, middle = 10 * block + block / 2;
   const auto out = [&](std::int64_t x, std::int64_t step, std::int64_t reach) {
@@ -131,7 +131,7 @@ TEST(RaycastWalk, StepsOutAtTheSidesOfABlock) {
   EXPECT_GE(out(10 * block, 1 << 18, 1), 15);
 }
 
-// A block of levels, its bound of the slope by the page's words, and each sample in it.
+// A random block of levels has its bound of the slope by the page's words, and each sample in it is taken.
 TEST(RaycastWalk, TheLevelDoesNotRiseToTheSurfaceInStepsThatAreLeftOut) {
   Random random(13);
   std::int64_t left_out = 0, close = 0;
@@ -189,18 +189,19 @@ TEST(RaycastWalk, TheLevelDoesNotRiseToTheSurfaceInStepsThatAreLeftOut) {
   EXPECT_GT(close, 5);  // the bound is not idle: some next sample is in matter
 }
 
-// The steepest level that a bound allows, straight along an axis: 768 slope a cell, from -level on.
+// The steepest level that a bound allows rises straight along an axis: by 768 slope a cell, from -level on.
 TEST(RaycastWalk, TheSteepestRiseMeetsItsBound) {
   for (const std::int64_t slope : {1, 2, 7, 42, 80, 255})
     for (const int spacing : {2, 3, 4, 5})
       for (std::int64_t level = -1; level > -32640; level = 2 * level - 3) {
         const std::int64_t steps = steps_to_rise(level, slope, spacing);
-        // In 1/8 of a level: what steps - 1 of them rise, less the margin of weights and blends.
+        // In 1/8 of a level, this is the rise of steps - 1 steps, which is less than the margin of weights
+        // and blends leaves.
         const std::int64_t rise = (steps - 1) * 768 * 8 * slope / (std::int64_t{1} << spacing);
         ASSERT_GE(steps, 1);
         ASSERT_TRUE(steps == 1 || rise + 8 * (3 * slope + 3) < -8 * level)
             << slope << " " << spacing << " " << level;
-        // Not a tenth less than could be.
+        // The steps are not a tenth fewer than they could be.
         const std::int64_t free = -level - 3 * slope - 4;
         ASSERT_GE(10 * (steps + 1) * 768 * slope, 9 * free * (std::int64_t{1} << spacing));
       }

@@ -1,4 +1,4 @@
-// Tests of the checker: what it compares, and what it says where software, widths or channels are at fault.
+// The checker compares all that it should, and names the cause: software, widths or channels.
 #include "hwmodel/pipeline/check/checker.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// A world with every stage but the source, where `strikes` holds.
+// Finds a world with every stage but the source, in which `strikes` holds.
 Start warm_start(const std::function<bool(const Start&)>& strikes = [](const Start&) { return true; }) {
   for (std::uint64_t seed = 0;; ++seed) {
     Start start = hostile_start(seed, rule::Law::paper, {7, 6, 5});
@@ -33,7 +33,7 @@ Start warm_start(const std::function<bool(const Start&)>& strikes = [](const Sta
   }
 }
 
-// The reference, with one thing wrong after a phase of step 3.
+// Names the error that the reference makes after a phase of step 3.
 enum class Wrong { liquid, amount, heat, books };
 void drop_a_liquid_cell(state::Volume& volume) {
   bool done = false;
@@ -151,7 +151,7 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   EXPECT_EQ(m.cycle, cycle);
   EXPECT_EQ(report.cycles, m.cycle + 1) << "the pass ends with the cycle of the first mismatch";
 
-  // Before convection: step 3 up to its conduction.
+  // The state before convection is that of step 3 after its conduction.
   run::Simulation simulation(start.parameters, start.volume, worlds::implementation("reference"));
   simulation.begin_at(start.step);
   worlds::steps(simulation, 2);
@@ -164,8 +164,8 @@ TEST(Checker, AMismatchHasItsLaneItsCycleAndTheStateBefore) {
   EXPECT_EQ(m.neighbourhood, neighbourhood(before.volume(), m.x, m.y, m.z));
 }
 
-// The lines around a mismatch show the state that its stage was given. Where waves are kept the pipeline goes
-// on, and what it computes from there is wrong, too: the lines stay those of the first cell.
+// The lines around a mismatch show the state that its stage was given. If waves are kept, the pipeline goes
+// on, and its later results are wrong, too: the lines stay those of the first cell.
 TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   const auto verified = [](const Start& start) {
     return lockstep(start, {4, 1, 2, 0}, 1, Fault::gravity_one_more, start.step);
@@ -196,7 +196,7 @@ TEST(Checker, TheCellsAroundAMismatchAreThoseBeforeItsStage) {
   EXPECT_EQ(kept.mismatch->neighbourhood, around);
 }
 
-// In steps that are not compared behind the stages, the written volume still is.
+// In steps that are not compared behind the stages, the written volume still is compared.
 TEST(Checker, TheWrittenVolumeIsComparedAfterEveryPass) {
   VerifyOptions options;
   options.steps = options.every = 6;
@@ -219,7 +219,7 @@ TEST(Checker, TheWrittenVolumeIsComparedAfterEveryPass) {
       << "the digest is the model's, not the software's";
 }
 
-// Who visits may end the run before any step has been compared behind its stages.
+// A visitor may end the run before any step has been compared behind its stages.
 TEST(Checker, AVisitorMayEndTheRunEarly) {
   const Start start = warm_start();
   VerifyOptions options;
@@ -232,7 +232,7 @@ TEST(Checker, AVisitorMayEndTheRunEarly) {
   EXPECT_EQ(report.steps, 2u);
 }
 
-// A vent that brings more energy than a cell can hold: no scene file can say so, but the wire would notice.
+// A vent brings more energy than a cell can hold. No scene file can say so, but the wire would notice.
 TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   Start start = hostile_start(3, rule::Law::paper, {4, 4, 4});
   start.parameters.heat = {};
@@ -278,7 +278,7 @@ TEST(Checker, TheFailingStageIsNotTheFirst) {
   EXPECT_EQ(report.mismatch->phase, step::Phase::heat);
 }
 
-// A token that leaves a channel changed, in any field or side band, is noticed where it leaves.
+// If a token leaves a channel changed, in any field or side band, the checker notices it there.
 TEST(Checker, AChannelThatChangesAnythingIsNamed) {
   const Start start = warm_start();
   const std::vector<std::pair<std::string, void (*)(Cell&)>> changes{
@@ -290,7 +290,7 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
       {"beside a wall", [](Cell& cell) { cell.beside_wall = 1; }},
       {"head", [](Cell& cell) { cell.head = 1; }}};
   for (const auto& [field, change] : changes)
-    for (const bool last : {false, true}) {  // the last one is before the writer
+    for (const bool last : {false, true}) {  // the last channel is before the writer
       Pipeline pipeline(start.parameters, start.volume.grid, {4, 2, 2, 0});
       const int channel = last ? static_cast<int>(pipeline.channels().size()) - 1 : 2;
       Checker checker(pipeline);
@@ -312,7 +312,8 @@ TEST(Checker, AChannelThatChangesAnythingIsNamed) {
     }
 }
 
-// What a checker says of one step of the pipeline, which is right, where it wants something else.
+// Returns the checker's complaint about one correct step of the pipeline, when the checker expects another
+// result.
 std::unique_ptr<Mismatch> said_of(void (*spoil)(state::Volume& left, state::Holdings& held), bool coded) {
   const Start start = hostile_start(4, rule::Law::paper, {6, 7, 5});
   run::Simulation software(start.parameters, start.volume, worlds::implementation("reference"));
@@ -352,8 +353,7 @@ TEST(Checker, EachOfTheBooksIsCompared) {
   }
 }
 
-// A coded column arrives as a whole, and is compared later. The cycle named is that of its token all the
-// same.
+// A coded column arrives as a whole, and is compared later. The mismatch still names the cycle of its token.
 TEST(Checker, AWrongMemoryNamesTheCycleOfItsToken) {
   const auto spoil = [](state::Volume& left, state::Holdings&) { ++left.amount[left.at(5, 3, 1)]; };
   const auto plain = said_of(spoil, false), coded = said_of(spoil, true);

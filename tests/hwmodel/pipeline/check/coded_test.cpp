@@ -1,5 +1,5 @@
-// The sparse stream of irradiance, and the occupancy code of the state (hw.coded): words by hand, round
-// trips, lock-step with tiles, stalls and a DRAM, and bits counted beforehand.
+// The sparse stream of irradiance and the occupancy code of the state (hw.coded) are tested by words by hand
+// and by round trips. They also run in lock-step with tiles, stalls and a DRAM, with bits counted beforehand.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -50,7 +50,7 @@ TEST(IrradianceStream, ADarkStretchNeedsAnEmptyMask) {
       << "one count that does not fit";
 }
 
-// A reader that gets each word no sooner than it says that it needs it makes the field again.
+// The reader gets each word no sooner than it says that it needs it, and still restores the field.
 TEST(IrradianceStream, IsReadBack) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     worlds::Random random(seed + 3);
@@ -84,7 +84,7 @@ TEST(IrradianceStream, IsReadBack) {
   }
 }
 
-// Three heights of one column, of which the middle one is solid: 3 bits, then one token of 34 bits.
+// The column has three heights, and the middle one is solid. It takes 3 bits, then one token of 34 bits.
 TEST(Code, AColumnByHand) {
   Design design{{}, {{1, 3, 1}, 1}, 1};
   design.parameters.flow.law = rule::Law::paper;
@@ -142,7 +142,8 @@ void hostile_worlds(int begin, int end) {
 TEST(Code, HostileWorldsWithTilesAndStalls) { hostile_worlds(0, 16); }
 TEST(CodeLong, HostileWorldsWithTilesAndStalls) { hostile_worlds(16, 50); }
 
-// Lanes, time steps and code, and tiles where the crop is wide enough for them.
+// The crop runs with several lanes and cascades, with and without the code, and in tiles if it is wide
+// enough.
 void crop_of_scene(const std::string& name, std::uint32_t step) {
   const std::array<int, 3> lanes{1, 4, 16};
   const std::array<int, 4> cascade{1, 2, 4, 8};
@@ -161,7 +162,7 @@ void crop_of_scene(const std::string& name, std::uint32_t step) {
 TEST(Code, CropsOfScenes) { crop_of_scene("cello", 1048); }
 TEST(CodeLong, CropsOfScenes) { crop_of_scene("bunny_viscous", 896); }
 
-// On a DRAM: the same bits, and it reads the bursts that hold something, and no others.
+// On a DRAM the bits are the same. It reads the bursts that hold something, and no others.
 TEST(Code, ADramGivesTheBurstsThatAreCounted) {
   const memory::Parameters sheet = load_memory("ddr4-2400", "test");
   int fed = 0;
@@ -203,7 +204,7 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
   EXPECT_GT(fed, 1);
 }
 
-// Grids in tiles: each tile reads whole columns of its window, and writes those that it owns.
+// The grids are cut into tiles. Each tile reads whole columns of its window, and writes those that it owns.
 TEST(Columns, ADramGivesThoseOfEachTile) {
   const memory::Parameters sheet = load_memory("ddr4-2400", "test");
   int cut = 0, coded = 0;
@@ -227,7 +228,7 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
     ASSERT_EQ(report.digest, lockstep(start, c, options.steps).digest);
     if (!design.shape.tiled()) continue;
     ++cut;
-    // One pass again, whose tiles follow one another.
+    // The pass runs once more. Its tiles follow one another.
     options.steps = 1;
     const VerifyReport one =
         verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
@@ -253,8 +254,8 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
   EXPECT_GE(coded, 2);
 }
 
-// Two passes over 3 x 2 columns of one burst: those of the second one are asked for when they have been
-// written, in their order.
+// Two passes run over 3 x 2 columns of one burst. The second pass asks for a column once it has been written,
+// in the order of the columns.
 TEST(Columns, AreAskedForWhenTheyHaveBeenWritten) {
   Design design{{}, {{3, 5, 2}, 1}, 1};
   const ColumnSlots slots(design, false);
@@ -296,7 +297,7 @@ TEST(Columns, AreAskedForWhenTheyHaveBeenWritten) {
   EXPECT_EQ(dram.counts().writes, 6);
 }
 
-// The blocks alone: the reader waits until the column has been written, whole.
+// The blocks run alone. The reader waits until the whole column has been written.
 TEST(Code, AColumnIsReadOnlyWhenItHasBeenWritten) {
   Design design{{}, {{1, 3, 1}, 1}, 1};
   const CodeLayout layout(design);
@@ -330,7 +331,7 @@ TEST(Code, AColumnIsReadOnlyWhenItHasBeenWritten) {
   EXPECT_EQ(reader.cycles().busy, 4);
 }
 
-// Grids in which the column makes the reader wait, and single tokens would not: passes do not overlap.
+// In these grids the column makes the reader wait, and single tokens would not. So passes do not overlap.
 TEST(Code, PassesOverlapIfNobodyWaitsForAColumn) {
   int apart = 0, overlapped = 0;
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
@@ -350,8 +351,8 @@ TEST(Code, PassesOverlapIfNobodyWaitsForAColumn) {
   EXPECT_GE(overlapped, 3);
 }
 
-// 8 lanes, 8 steps: a quarter of the 1024 bits of irradiance that were sent at most, and of the cello's
-// state.
+// With 8 lanes and 8 steps, at most a quarter of the 1024 bits of irradiance that used to be sent remains.
+// The same holds for the cello's state.
 void traffic_of(const std::string& name, std::uint32_t step) {
   const Start start = start_of(name, step);
   run::Simulation simulation(start.parameters, start.volume, run::implementations().widest());

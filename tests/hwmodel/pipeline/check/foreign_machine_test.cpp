@@ -1,5 +1,5 @@
-// The checkers know no pipeline: they verify any machine that shows them its tokens. Here it is one that
-// stands for a simulation of another kind. It hands on what a pipeline does, and can be wrong in one cell.
+// The checkers know no pipeline: they verify any machine that shows them its tokens. This one stands for a
+// simulation of another kind. It hands on the tokens of a pipeline, and can be wrong in one cell.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace voxmelt::hwmodel {
 namespace {
 
 struct Wrong {
-  int channel = -1;  // none
+  int channel = -1;  // no channel
   std::int64_t ordinal = 0;
   std::size_t lane = 0;
 };
@@ -89,7 +89,8 @@ TEST(ForeignMachine, IsVerifiedLikeThePipeline) {
   }
 }
 
-// Of 8 x 5 x 3 cells in lanes of 4, token 17 is in column 3: the second of two blocks, z = 1; there y = 2.
+// If 8 x 5 x 3 cells come in lanes of 4, token 17 is in column 3: the second of two blocks, z = 1. There it
+// has y = 2.
 TEST(ForeignMachine, ItsWrongCellIsNamed) {
   const Start start = hostile_start(5, rule::Law::paper, {8, 5, 3});
   const std::vector<ChannelReport> channels =

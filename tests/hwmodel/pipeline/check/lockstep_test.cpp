@@ -1,5 +1,5 @@
-// The pipeline in lock-step with the reference and the SIMD kernels: the same bits for every number of lanes,
-// cascade, depth and stall; the closed form predicts the cycles.
+// The pipeline runs in lock-step with the reference and the SIMD kernels. It gives the same bits for every
+// number of lanes, cascade, depth and stall, and the closed form predicts the cycles.
 #include "tests/hwmodel/pipeline/check/lockstep_world.h"
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// 100 random hostile worlds, both laws, any configuration.
+// There are 100 random hostile worlds, under both laws and in any configuration.
 TEST(Lockstep, HostileWorlds) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     worlds::Random random(seed + 77);
@@ -44,7 +44,7 @@ TEST(Lockstep, AwkwardSizes) {
     ASSERT_TRUE(agrees(hostile_start(++seed, rule::Law::paper, {size, size, size}), {16, 2, 2, 0}, 2));
 }
 
-// Exactly the predicted cycles, over 96 configurations without stalls.
+// The cycles are exactly the predicted ones, over 96 configurations without stalls.
 TEST(Lockstep, ClosedFormIsExact) {
   int configurations = 0;
   for (const int lanes : {1, 2, 4, 16})
@@ -117,7 +117,7 @@ TEST(Lockstep, WithoutStallsNoStageWaits) {
   }
 }
 
-// Passes of two steps and of one in turn: the second step's feed must not run while that step is bypassed.
+// Passes of two steps and of one take turns. The second step's feed must not run while that step is bypassed.
 TEST(Lockstep, IrradianceStaysInStepAcrossBypasses) {
   int worlds = 0;
   for (std::uint64_t seed = 0; worlds < 12; ++seed) {

@@ -1,4 +1,4 @@
-// Runs of the lock-step checker on scenes, crops of scenes and hostile worlds.
+// Runs the lock-step checker on scenes, crops of scenes and hostile worlds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace voxmelt::hwmodel {
 
-// A state in the middle of its melt, with the number of its next step.
+// Holds a state in the middle of its melt, with the number of its next step.
 struct Start {
   std::string name;
   rule::Parameters parameters;
@@ -32,7 +32,7 @@ inline Start start_of(const std::string& scene_name, std::uint32_t ahead) {
   return {scene_name, scene.parameters, simulation.volume(), simulation.step_number()};
 }
 
-// The steps at which the showcase scenes are in the middle of their melt (docs/results/performance.md).
+// Lists the steps at which the showcase scenes are in the middle of their melt (docs/results/performance.md).
 inline const std::vector<std::pair<std::string, std::uint32_t>>& showcase() {
   static const std::vector<std::pair<std::string, std::uint32_t>> scenes{
       {"cello", 1048},         {"goblet", 1100},         {"lava", 1200},         {"bunny", 896},
@@ -40,7 +40,7 @@ inline const std::vector<std::pair<std::string, std::uint32_t>>& showcase() {
   return scenes;
 }
 
-// The cube of `side` cells around the most liquid; sources, vents and air move with it.
+// Cuts out the cube of `side` cells around the most liquid. Sources, vents and air move with it.
 inline Start crop(const Start& whole, int side) {
   const state::Grid g = whole.volume.grid;
   std::int64_t most = -1;
@@ -95,7 +95,7 @@ inline std::string name_of(const Configuration& c) {
          std::to_string(c.substeps);
 }
 
-// The narrowest tile that a configuration can have, and `more` blocks.
+// Returns the width of the narrowest tile that a configuration can have, and `more` blocks.
 inline int narrow(const Start& start, const Configuration& c, int more) {
   const Design uncut{start.parameters, {start.volume.grid, c.lanes}, c.substeps};
   const int halo = (c.cascade * reach_of_step(uncut) + c.lanes - 1) / c.lanes;
@@ -112,7 +112,8 @@ inline VerifyReport lockstep(const Start& start, const Configuration& configurat
   return verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
 }
 
-// No difference, everything compared, and without stalls exactly the predicted cycles. False after a failure.
+// Expects no difference, everything compared, and the predicted cycles if nothing stalls. False after a
+// failure.
 inline bool agrees(const Start& start, const Configuration& configuration, std::uint32_t steps,
                    std::int64_t* cycles = nullptr) {
   const VerifyReport report = lockstep(start, configuration, steps);
@@ -120,7 +121,7 @@ inline bool agrees(const Start& start, const Configuration& configuration, std::
   const std::string where = start.name + ", " + name_of(configuration);
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
-  std::int64_t stages = 0;  // of one time step
+  std::int64_t stages = 0;  // the stages of one time step
   for (const StageReport& stage : report.stages) stages += phase_of(stage.kind) && stage.cascade == 0;
   EXPECT_GE(stages, 3) << where;
   // A step with more sub-steps than the machine has copies takes several passes.

@@ -1,4 +1,4 @@
-// The columns of the pipeline's matrix, a pairwise covering array of them, and one run of a row.
+// The pipeline's matrix has these columns. A pairwise covering array of them is built here, and a row is run.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace voxmelt::hwmodel {
 
 enum Column { kLanes, kCascade, kSized, kSeed, kTile, kMemory, kCoded, kOverlap, kColumns };
-using MatrixRow = std::array<int, kColumns>;  // the number of the value in its column
+using MatrixRow = std::array<int, kColumns>;  // the index of a value in each column
 
 inline constexpr MatrixRow kValues{3, 4, 2, 5, 4, 3, 2, 2};
 inline constexpr std::array<int, 3> kLanesOf{1, 4, 16};
@@ -46,8 +46,8 @@ inline std::set<ValuePair> all_pairs() {
   return pairs;
 }
 
-// 24 rows, in which every pair of values occurs: of some random rows that hold a missing pair, the one with
-// the most missing pairs.
+// Returns 24 rows, in which every pair of values occurs. Each row is the best of some random rows that hold a
+// missing pair: the one with the most missing pairs.
 inline std::vector<MatrixRow> covering_rows() {
   worlds::Random random(18);
   std::set<ValuePair> missing = all_pairs();
@@ -76,8 +76,8 @@ inline std::vector<MatrixRow> covering_rows() {
   return rows;
 }
 
-// The columns of a tile for the n-th of three widths, or 0: such grids cannot be cut so. Two tiles, three,
-// and as many as there can be up to four.
+// Returns the columns of a tile for the n-th of three widths, or 0 if the grid cannot be cut so. The widths
+// give two tiles, three, and as many as there can be up to four.
 inline int tile_width(const Start& start, const Configuration& c, int n) {
   if (n == 0) return 0;
   const Design uncut{start.parameters, {start.volume.grid, c.lanes}, c.substeps};
@@ -88,8 +88,8 @@ inline int tile_width(const Start& start, const Configuration& c, int n) {
   return width < blocks ? width * c.lanes : 0;
 }
 
-// The smallest channels that lose no cycle, of a small grid with the same parameters and memory. A machine is
-// built for no seed of stalls: they are sized without.
+// Returns the smallest channels that lose no cycle, of a small grid with the same parameters and memory. They
+// are sized without stalls, because a machine is built for no seed of stalls.
 inline const std::vector<ChannelDepth>& sized_depths(const Start& start, const Configuration& c, int memory) {
   static std::map<std::tuple<std::string, int, int, int, bool>, std::vector<ChannelDepth>> known;
   auto& depths = known[{start.name, c.lanes, c.cascade, memory, c.overlap}];
@@ -132,7 +132,7 @@ inline std::string text_of(const MatrixRow& row, const Configuration& c) {
          (c.coded ? "coded" : "plain") + " | " + (c.overlap ? "yes" : "no");
 }
 
-// In lock-step, everything compared behind every stage.
+// Runs a row in lock-step, with everything compared behind every stage.
 inline VerifyReport run_row(const Start& start, const MatrixRow& row, const Configuration& c,
                             std::uint32_t steps) {
   VerifyOptions options;
@@ -148,7 +148,7 @@ inline VerifyReport run_row(const Start& start, const MatrixRow& row, const Conf
   const std::string where = start.name + " | " + text_of(row, c);
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   if (report.mismatch) return report;
-  std::int64_t stages = 0;  // of one time step
+  std::int64_t stages = 0;  // the stages of one time step
   for (const StageReport& stage : report.stages) stages += phase_of(stage.kind) && stage.cascade == 0;
   EXPECT_GE(report.compared_cells, static_cast<std::int64_t>(start.volume.grid.cells()) * stages * steps)
       << where;

@@ -1,5 +1,6 @@
-// The matrix of docs/verification.md. Quick: every row of the covering array on a crop of a showcase scene.
-// Slow: all of them on whole scenes in the middle of their melt, and the full product on crops.
+// This is the matrix of docs/verification.md. The quick part runs every row of the covering array on a crop
+// of a showcase scene. The slow part runs all rows on whole scenes in the middle of their melt, and the full
+// product on crops.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -25,8 +26,8 @@ void print(const Start& start, const MatrixRow& row, const Configuration& c, con
   std::fflush(stdout);
 }
 
-// Ten steps. A scene that counts its sub-steps from the state has passes of one step only: here it has one
-// sub-step a step, and `counted` adds two steps with all of them.
+// The runs take ten steps. A scene that counts its sub-steps from the state has passes of one step only. So
+// it gets one sub-step a step here, and `counted` adds two steps with all of them.
 Start with_long_passes(Start start) {
   if (start.parameters.flow.law == rule::Law::viscous) start.parameters.flow.viscous.substeps = 1;
   return start;
@@ -58,8 +59,8 @@ TEST(Matrix, TheRowsHoldEveryPair) {
 
 class Crops : public testing::TestWithParam<std::size_t> {};
 
-// Each row on one scene, an eighth of them on each; cubes that end within a block of 16 lanes. Early in the
-// melt: most of the time goes into getting there.
+// Each row runs on one scene, so each scene has an eighth of them. The cubes end within a block of 16 lanes.
+// Most scenes are early in their melt, because getting there takes most of the time.
 TEST_P(Crops, OfAShowcaseScene) {
   const auto& [name, ahead] = showcase()[GetParam()];
   const Start start = crop(start_of(name, name.starts_with("goblet") ? ahead : 240), 20);
@@ -70,7 +71,8 @@ TEST_P(Crops, OfAShowcaseScene) {
 INSTANTIATE_TEST_SUITE_P(Matrix, Crops, testing::Range(std::size_t{0}, showcase().size()),
                          [](const auto& chosen) { return showcase()[chosen.param].first; });
 
-constexpr int kParts = 8;  // of a scene's runs, so that a run can be cut short
+// The runs of a scene are split into this many parts, so that a session can be cut short.
+constexpr int kParts = 8;
 
 class Whole : public testing::TestWithParam<std::pair<std::size_t, int> > {
  protected:
@@ -88,10 +90,11 @@ TEST_P(Whole, CoveringArray) {
     check_row(start, i, i == GetParam().first);
 }
 
-// The part of a row: runs that share sized channels come together, and each part has every number of lanes.
+// Returns the part of a row. Runs that share sized channels come together, and each part has every number of
+// lanes.
 int part_of(const MatrixRow& row) { return (row[kLanes] + 3 * row[kCascade] + 4 * row[kOverlap]) % kParts; }
 
-// Rows that a crop cannot tell from others are left out: a tile that is as wide as the grid.
+// Rows that a crop cannot tell from others are left out: their tile is as wide as the grid.
 TEST_P(Whole, FullProductOnACrop) {
   const Start start = with_long_passes(crop(start_of_scene(), 32));
   std::int64_t compared = 0, cut = 0, runs = 0;

@@ -1,5 +1,5 @@
-// Passes that follow without a gap: the same bits, exactly the predicted cycles, and every fault found where
-// it was planted. The grids are deep, since a pass must be longer than the machine's lags.
+// Passes that follow without a gap give the same bits in exactly the predicted cycles, and every fault is
+// found where it was planted. The grids are deep, since a pass must be longer than the machine's lags.
 #include <cstdint>
 #include <cstdio>
 
@@ -17,13 +17,13 @@ Start deep_start(std::uint64_t seed, rule::Law law, int depth) {
   return start;
 }
 
-// Cycles of passes that do not overlap, from those of one pass each.
+// Returns the cycles of the same run if its passes do not overlap.
 std::int64_t apart(const Start& start, Configuration configuration, std::uint32_t steps) {
   configuration.overlap = false;
   return lockstep(start, configuration, steps).cycles;
 }
 
-// 288 configurations without stalls. Each run ends with a pass of fewer steps.
+// There are 288 configurations without stalls. Each run ends with a pass of fewer steps.
 TEST(Overlap, ClosedFormIsExact) {
   int configurations = 0, shorter = 0;
   for (const int lanes : {1, 2, 4, 16})
@@ -44,7 +44,7 @@ TEST(Overlap, ClosedFormIsExact) {
   std::printf("             %d of 144 runs were shorter with overlap\n", shorter);
 }
 
-// The reader never waits where nothing stalls: n passes cost n times their tokens, and one fill and drain.
+// If nothing stalls, the reader never waits: n passes cost n times their tokens, and one fill and drain.
 TEST(Overlap, ATrainPaysOneFillAndDrain) {
   Start start = deep_start(3, rule::Law::paper, 80);
   start.parameters.heat.radiation = false;
@@ -69,8 +69,8 @@ TEST(Overlap, HostileWorldsWithStalls) {
   }
 }
 
-// The blocks alone: the reader waits for the writer's credit, and sees it one cycle late, whichever runs
-// first.
+// The blocks run alone. The reader waits for the writer's credit and sees it one cycle late, whichever of
+// them runs first.
 TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
   const Shape shape{{1, 3, 1}, 1};
   state::Volume volume(shape.grid);
@@ -116,7 +116,7 @@ TEST(Overlap, ATokenIsReadOnlyWhenItHasBeenWritten) {
 TEST(Overlap, EveryFaultIsFoundWhereItWasPlanted) {
   int struck = 0, blind = 0;
   for (const FaultInfo& fault : all_faults()) {
-    if (is_of_tiles(fault.fault)) continue;  // tile_test.cpp
+    if (is_of_tiles(fault.fault)) continue;  // tile_test.cpp plants these
     int here = 0;
     for (std::uint64_t seed = 0; seed < 60 && here < 3; ++seed) {
       const Start start = deep_start(seed + 900, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, 40);
@@ -138,7 +138,7 @@ TEST(Overlap, EveryFaultIsFoundWhereItWasPlanted) {
     blind += here == 0;
   }
   EXPECT_GT(struck, 100);
-  EXPECT_LT(blind, 6);  // needs sub-steps, or a world that these are not
+  EXPECT_LT(blind, 6);  // these faults need sub-steps, or other worlds
 }
 
 // Grids no longer than the lags go through pass by pass, as without overlap: a wait would never end.

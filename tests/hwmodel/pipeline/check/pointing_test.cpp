@@ -15,7 +15,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// A world with walls that matter, under the law.
+// Finds a world under the given law with walls that matter.
 Start start_with_sides(rule::Law law, bool hot, state::Grid grid) {
   for (std::uint64_t seed = 0;; ++seed) {
     Start start = hostile_start(seed, law, grid);
@@ -35,13 +35,13 @@ VerifyReport verified(const Start& start, const Configuration& configuration, st
   return verify(start.parameters, start.volume, start.step, worlds::implementation("reference"), {}, options);
 }
 
-// Hands cells on, and does something of its own to one token.
+// Hands cells on, and lets a function change a token.
 class Odd final : public Stage {
  public:
   using Strange = std::function<void(std::int64_t ordinal, Cell* out)>;
   Odd(StageKind kind, const Design& design, Strange strange)
       : Stage(kind, design, 0), strange_(std::move(strange)) {}
-  std::int64_t rests_before = -1;  // has no second input for one cycle before this token
+  std::int64_t rests_before = -1;  // the stage has no second input for one cycle before this token
 
  protected:
   void advance(const Cell* in, Cell* out) override {
@@ -146,7 +146,7 @@ TEST(Pointing, ALostCycleIsADifference) {
 
 // Settle's second scan works on a column that has been turned round: its top comes first.
 struct TooWideBehindTheTurn : NoFaults {
-  std::int64_t coming = 0;  // when this token comes
+  std::int64_t coming = 0;  // the value is too wide when this token comes
   void lowered(auto& settle) const {
     if (settle.came().ordinal == coming) settle.words_[0].heat = 65536;
   }
@@ -197,7 +197,7 @@ TEST(Pointing, AWrongMemoryNamesTheCycleOfItsToken) {
   EXPECT_EQ(found, 3);
 }
 
-// The same fault strikes in conduction, or without heat in `walls`.
+// The same fault strikes in conduction, or in `walls` if the scene is cold.
 TEST(Pointing, ASideThatIsMissedIsFoundInTheStageThatLooksRound) {
   std::set<std::string> places;
   for (const bool hot : {false, true}) {

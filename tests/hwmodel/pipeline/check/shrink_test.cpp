@@ -24,7 +24,7 @@ state::Volume filled(state::Grid grid) {
   return volume;
 }
 
-// Does a case still hold this cell of the scene, as it was?
+// Tells whether a case still holds this cell of the scene, with its old amount.
 bool holds(const Case& one, const state::Volume& scene, const Cell3& cell) {
   const int x = cell[0] - one.from[0], y = cell[1] - one.from[1], z = cell[2] - one.from[2];
   return one.volume.grid.contains(x, y, z) && one.volume.liquid.test(x, y, z) &&
@@ -39,7 +39,7 @@ int liquid(const Case& one) {
   return cells;
 }
 
-// It fails while two cells are there, the machine has four lanes, and "vent.1" pours.
+// The failure needs two cells, a machine of four lanes or more, and "vent.1".
 TEST(Shrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
   const state::Volume scene = filled({27, 20, 22});
   const Cell3 a{20, 3, 11}, b{16, 8, 11};
@@ -69,7 +69,7 @@ TEST(Shrinker, KeepsWhatTheFailureNeedsAndNothingElse) {
   EXPECT_EQ(shrinker.tried(), asked);
 }
 
-// One cell of every kind, with all that it can hold, at the corners of a box.
+// Makes a volume with one cell of every kind, with all that it can hold, at the corners of a box.
 state::Volume of_every_kind() {
   state::Volume volume(state::Grid{6, 5, 4});
   volume.solid.set(1, 1, 1, true);
@@ -101,7 +101,7 @@ TEST(Shrinker, APartHoldsAllThatItsCellsHold) {
   EXPECT_FALSE(part.liquid.test(0, 0, 0) || part.solid.test(1, 1, 1) || part.inert.test(0, 0, 1));
 }
 
-// It fails in the whole grid alone, so nothing can be cut off; then all matter can go.
+// The failure needs the whole grid, so nothing can be cut off. Then all matter can go.
 TEST(Shrinker, MatterOfEveryKindIsTakenAway) {
   const state::Volume whole = of_every_kind();
   Shrinker shrinker(
@@ -125,7 +125,7 @@ TEST(Shrinker, BeginsAroundTheFirstDifference) {
   EXPECT_EQ(parts.front(), (std::pair{Cell3{16, 26, 21}, Cell3{8, 8, 8}}));
 }
 
-// While the vent is there it fails in the whole grid alone; without it, in any.
+// While the vent is there, the failure needs the whole grid. Without it, any grid fails.
 TEST(Shrinker, CutsAgainWhereSourcesAreGone) {
   const state::Volume whole = filled({9, 9, 9});
   Shrinker shrinker(

@@ -1,5 +1,5 @@
-// Grids that are cut into tiles: the bits of the software, the cycles of the closed form, every cell owned by
-// one tile and counted once, and faults of tiles found where they were planted.
+// Grids that are cut into tiles give the software's bits in the cycles of the closed form. Every cell is
+// owned by one tile and counted once, and faults of tiles are found where they were planted.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -72,7 +72,7 @@ TEST(Tiles, AnOrdinalForEveryToken) {
   EXPECT_EQ(ordinals.size(), 11u * 3 * 2);
 }
 
-// By hand: conduction with all neighbours reaches 1 + 1 + 1 cells, pattern and apply 1 + 1.
+// By hand, conduction with all neighbours reaches 1 + 1 + 1 cells, and pattern and apply 1 + 1.
 TEST(Tiles, TheHaloIsWhatTheStagesReach) {
   Start start = hostile_start(0, rule::Law::paper, {40, 4, 4});
   for (std::uint64_t seed = 1; !start.parameters.heat.enabled || start.parameters.heat.neighbours != 26;
@@ -85,14 +85,14 @@ TEST(Tiles, TheHaloIsWhatTheStagesReach) {
   EXPECT_EQ(shape.halo, 5) << "2 steps of 5 cells, in blocks of 2";
   EXPECT_EQ(shape.tiles(), 10) << "one block each between two cuts, six at the ends: 6 + 8 x 1 + 6";
   EXPECT_EQ(recomputed_cells(shape), (10 * 22 - 40) * 4 * 4);
-  c.tile = 24;  // 7 + 2 x 3 + 7: four tiles; the same number would do with tiles of 24
+  c.tile = 24;  // 7 + 3 x 2 + 7 blocks: five tiles
   EXPECT_EQ(design_of(start.parameters, start.volume.grid, c).shape.tiles(), 5);
   c.tile = 20;
   EXPECT_NE(tile_problem(start.parameters, start.volume.grid, c), "");
   EXPECT_THROW(design_of(start.parameters, start.volume.grid, c), std::invalid_argument);
 }
 
-// A quick part of 200 hostile worlds; the slow test has them all.
+// Runs a part of 200 hostile worlds. The quick test takes 40, and the slow one the others.
 void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
   int cut = 0, most = 0;
   for (std::uint64_t seed = begin; seed < end; ++seed) {
@@ -116,7 +116,8 @@ void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
 TEST(Tiles, HostileWorlds) { hostile_worlds(0, 40); }
 TEST(TilesLong, HostileWorlds) { hostile_worlds(40, 200); }
 
-// Exactly the predicted cycles, with and without overlap, where tiles of shallow grids do not follow too.
+// The cycles are exactly the predicted ones, with and without overlap. This includes shallow grids, whose
+// tiles do not overlap.
 TEST(Tiles, ClosedFormIsExact) {
   int configurations = 0, cut = 0;
   for (const int lanes : {1, 2, 4})
@@ -139,8 +140,8 @@ TEST(Tiles, ClosedFormIsExact) {
   std::printf("             %d of 324 grids were cut\n", cut);
 }
 
-// The closed form of equal passes, by hand: one fill and drain for a train of all tiles of all passes, one
-// for each pass, or one for each tile.
+// The closed form of equal passes is worked by hand. It has one fill and drain for a train of all tiles of
+// all passes, one for each pass, or one for each tile.
 TEST(Tiles, CyclesOfEqualPasses) {
   Start start = hostile_start(3, rule::Law::paper, {40, 3, 60});
   start.parameters.heat.radiation = false;
@@ -163,9 +164,8 @@ TEST(Tiles, CyclesOfEqualPasses) {
   }
 }
 
-// What memories of a few columns hold, whatever the width of the grid.
 // The machine holds a few tokens more than a tile has. But the tile that writes the cells which the next pass
-// reads first begins 14 blocks behind them: so no pass waits, and costs its tokens alone.
+// reads first begins 14 blocks behind them. So no pass waits, and each costs its tokens alone.
 TEST(Tiles, APassWaitsOnlyUntilTheOwnerHasWritten) {
   Start start = hostile_start(0, rule::Law::paper, {40, 6, 6});
   start.parameters.heat = {};
@@ -184,6 +184,7 @@ TEST(Tiles, APassWaitsOnlyUntilTheOwnerHasWritten) {
   EXPECT_EQ(four - two, 2 * 936) << "26 x 6 x 6 tokens of each tile";
 }
 
+// The memories of a tile's few columns are the same, whatever the width of the grid.
 TEST(Tiles, BuffersAreThoseOfATile) {
   const auto bits_of = [](int width) {
     const Start start = hostile_start(8, rule::Law::paper, {width, 4, 4});
@@ -195,13 +196,14 @@ TEST(Tiles, BuffersAreThoseOfATile) {
       for (const BufferCost& buffer : stage->buffers()) bits += buffer.total();
     return bits;
   };
-  EXPECT_EQ(bits_of(32), bits_of(32 + 5 * (32 - 16)));  // tiles that are full
+  EXPECT_EQ(bits_of(32), bits_of(32 + 5 * (32 - 16)));  // both have full tiles
   EXPECT_LE(bits_of(1000), bits_of(32));
 }
 
 class TileFaults : public testing::TestWithParam<FaultInfo> {};
 
-// A fault in a grid that is cut is found where it was planted: those of tiles, and all others.
+// A fault in a grid that is cut is found where it was planted. This holds for those of tiles, and for all
+// others.
 TEST_P(TileFaults, IsFoundWhereItWasPlanted) {
   const FaultInfo& fault = GetParam();
   const bool of_tiles = is_of_tiles(fault.fault);

@@ -9,7 +9,7 @@
 
 namespace voxmelt::hwmodel {
 
-void PrintTo(const FaultInfo& fault, std::ostream* out) { *out << fault.name; }  // of the test's parameter
+void PrintTo(const FaultInfo& fault, std::ostream* out) { *out << fault.name; }  // names the test's parameter
 
 namespace {
 
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(all_faults().begin
 
 TEST(PlantedFault, ThereAreAtLeastTwenty) { EXPECT_GE(all_faults().size(), 20u); }
 
-// The state before the mismatch shows it again.
+// A run from the state before the mismatch shows it again.
 TEST(PlantedFault, ReplayFindsItAgain) {
   int replayed = 0;
   for (std::uint64_t seed = 0; seed < 40 && replayed < 5; ++seed) {

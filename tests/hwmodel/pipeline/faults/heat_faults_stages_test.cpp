@@ -1,4 +1,4 @@
-// Every planted fault of source, heat and melt: where it strikes, the phase's result is wrong, and the first
+// Every fault of source, heat and melt is planted. If it strikes, the phase's result is wrong, and the first
 // wrong cell in the order of the stream is the one that it names.
 #include <algorithm>
 #include <cstdint>
@@ -18,10 +18,10 @@ struct Planted {
   Fault fault;
   step::Phase phase;
   Make make;
-  std::vector<std::string> stages;  // that must be struck in some world
+  std::vector<std::string> stages;  // stages that must be struck in some world
 };
 
-// Strikes by stage, over hostile worlds.
+// Counts the strikes by stage, over hostile worlds.
 std::map<std::string, int> strikes(const Planted& planted, int count) {
   std::map<std::string, int> struck;
   for (int world = 0; world < count; ++world) {

@@ -1,5 +1,5 @@
-// Plants a fault in stages that do one phase whole, and sees that the first cell of the stream that differs
-// from the reference is the one that the fault names.
+// Plants a fault in the stages of one whole phase. The first cell of the stream that differs from the
+// reference must be the one that the fault names.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace voxmelt::hwmodel {
 
-// The first cell in the order of the stream that differs, or "".
+// Returns the first cell in the order of the stream that differs, or "".
 inline std::string first_difference(const Shape& shape, const state::Volume& a, const state::Volume& b) {
   std::vector<Cell> left(static_cast<std::size_t>(shape.lanes)), right(left);
   for (Place place; place.ordinal < shape.tokens(); place.next(shape)) {
@@ -31,8 +31,7 @@ inline std::string name_of(const FaultPlan::Strike& strike) {
   return std::to_string(strike.x) + ", " + std::to_string(strike.y) + ", " + std::to_string(strike.z);
 }
 
-// Every world is run until the fault strikes, for up to `steps` steps; at least `wanted` worlds must
-// be struck.
+// Runs every world until the fault strikes, for up to `steps` steps. At least `wanted` worlds must be struck.
 template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, int worlds, int steps,
                     int wanted) {

@@ -35,7 +35,7 @@ At first_difference(const Shape& shape, const state::Volume& expected, const sta
   return {};
 }
 
-// Plants `fault` in a fresh world, again and again, from a later step each time.
+// Plants `fault` in one fresh world after another, from a random step on.
 void expect_found(Fault fault, Phase last, const std::string& stage) {
   int strikes = 0, later = 0, hot = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -65,7 +65,8 @@ void expect_found(Fault fault, Phase last, const std::string& stage) {
         ASSERT_EQ(strike.step, step);
         ASSERT_GE(step, plan.first_step());
         if (last == Phase::excess) {
-          // What a run shows may be wrong in a cell before: the lock-step compares that, a volume cannot.
+          // A run may show wrong numbers in an earlier cell. Only the lock-step can compare those: a volume
+          // lacks them.
           if (first == At{}) return;
           const Shape& shape = world.design.shape;
           ASSERT_LE(stream_order(shape, strike.x, strike.y, strike.z),

@@ -1,4 +1,4 @@
-// The model's arithmetic where worlds of a few cells hardly reach.
+// The model's arithmetic is tested where worlds of a few cells hardly reach.
 #include "hwmodel/pipeline/model/arithmetic.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The wires of a token: their widths as docs/hardware/pipeline.md has them, and that each reads and writes
-// its own field.
+// The wires of a token have the widths of docs/hardware/pipeline.md. Each wire reads and writes its own
+// field.
 #include "hwmodel/pipeline/model/cell_wires.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(CellWires, EachReadsAndWritesItsOwnField) {
   }
 }
 
-// A whole cell has no bits beside its wires: who sets them all has copied it.
+// A whole cell has no bits beside its wires: setting them all copies it.
 TEST(CellWires, TheyAreAllThatACellHas) {
   Cell from;
   from.state = State::solid;

@@ -1,4 +1,4 @@
-// The table of the keys of [hw]: what each row reads and writes, and what follows from it.
+// The table of the keys of [hw] is tested: each row reads and writes its own value.
 #include "hwmodel/pipeline/model/configuration.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// As docs/hardware/pipeline.md says them.
+// These values are those of docs/hardware/pipeline.md.
 const std::map<std::string, std::int64_t> kUsual{{"lanes", 4},      {"cascade", 1},   {"substeps", 1},
                                                  {"overlap", 1},    {"tile", 0},      {"coded", 0},
                                                  {"fifo_depth", 4}, {"stall_seed", 0}};
@@ -61,7 +61,7 @@ TEST(Configuration, OverridesGoByTheTable) {
   EXPECT_THROW(load_preset({}, {"hw.lanes=8", "hw.tile=20"}), scene::InputError);
 }
 
-// What --size-fifos writes describes the whole machine: its tiles, too.
+// The file that --size-fifos writes describes the whole machine, with its tiles.
 TEST(Configuration, AFileOfSizedChannelsHasTheWholeMachine) {
   Configuration c;
   for (const HwKey& key : kHwKeys) key.set(c, kOthers.at(std::string(key.name)));

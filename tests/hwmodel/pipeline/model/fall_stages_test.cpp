@@ -1,6 +1,6 @@
-// Gravity under the viscous law, alone: the side bands that settle and spread will bring are set by a
-// stage of the test, from its own few lines of docs/automaton.md, section 10. The result is compared with
-// the reference.
+// Gravity under the viscous law is tested alone. A stage of the test sets the side bands that settle and
+// spread would bring, by its own few lines of docs/automaton.md, section 10. The result is compared with the
+// reference.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@ std::size_t index_of(state::Grid g, int x, int y, int z) {
          static_cast<std::size_t>(x);
 }
 
-// For the volume before the excess phase: the cells of runs that will hold something after it.
+// Marks, in the volume before the excess phase, the cells of runs that will hold something after it.
 Marks cells_in_runs(const state::Volume& v) {
   Marks marks(static_cast<std::size_t>(v.grid.cells()));
   for (int z = 0; z < v.grid.z; ++z)
@@ -57,7 +57,7 @@ class Marker final : public Stage {
   }
 };
 
-// Runs until the fault strikes; true if it did.
+// Runs until the fault strikes, and returns true if it did.
 bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fault) {
   worlds::Random random(seed * 6007 + 11);
   const Design design{worlds::hostile_parameters(random, rule::Law::viscous, grid),

@@ -1,4 +1,4 @@
-// The stages of the phases source, heat and melt, as make_step puts them together.
+// The stages of the phases source, heat and melt are put together as by make_step.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace voxmelt::hwmodel {
 
-// It is placed behind a phase. A cell that leaves the phase brings no side bands, except what conduction
-// tells gravity.
+// Checks, behind a phase, that its cells bring no side bands, except the bit that conduction hands to
+// gravity.
 class NoSideBands final : public Stage {
  public:
   NoSideBands(const Design& design, StageKind before) : Stage(before, design, 0) {}
@@ -27,7 +27,7 @@ class NoSideBands final : public Stage {
   }
 };
 
-// The stages of one phase, in their order.
+// Adds the stages of one phase, in their order.
 inline void phase_stages(const Design& design, const StageMaker& make, step::Phase phase, Stages& stages) {
   for (const StageKind kind : stages_of_step(design))
     if (phase_of(kind) == phase) stages.push_back(make(kind, design));

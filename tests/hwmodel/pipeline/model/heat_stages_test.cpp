@@ -1,4 +1,4 @@
-// The stages of source, heat and melt against the reference, and what their memories cost.
+// The stages of source, heat and melt agree with the reference, and their memories cost what they should.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ TEST(HeatStages, MeltIsTheReference) {
       expect_phase(law, step::Phase::melt, melt_of, 300, 4, seed);
 }
 
-// Runs the stages of a phase over a hostile world of this size; the number of comparisons.
+// Runs the stages of a phase over a hostile world of this size, and returns the number of comparisons.
 int compare_size(const state::Grid& grid, std::uint64_t seed, step::Phase phase, auto&& make) {
   worlds::Random random(seed);
   const rule::Law law = random.any({rule::Law::paper, rule::Law::viscous});
@@ -51,7 +51,7 @@ int compare_size(const state::Grid& grid, std::uint64_t seed, step::Phase phase,
   return compared;
 }
 
-// Sizes around the rows of the masks and the blocks of lanes, on each axis; one or two axes are long.
+// The sizes lie around the rows of the masks and the blocks of lanes, on each axis. One or two axes are long.
 TEST(HeatStages, AwkwardSizes) {
   int compared = 0;
   std::uint64_t seed = 0;
@@ -66,7 +66,7 @@ TEST(HeatStages, AwkwardSizes) {
   EXPECT_GT(compared, 400);
 }
 
-// A large block of a few planes, so that every tap lies in a memory of its own.
+// The grid has large blocks in a few planes, so every tap lies in a memory of its own.
 TEST(HeatStages, LargeGrid) {
   for (const rule::Law law : kBothLaws)
     for (const int lanes : {1, 16}) {
@@ -79,7 +79,7 @@ TEST(HeatStages, LargeGrid) {
       heat.convection = 32767;
       Stages stages;
       heat_of(design, make_stage, stages);
-      ASSERT_EQ(stages.size(), 6u);  // with the watcher
+      ASSERT_EQ(stages.size(), 6u);  // six stages, with the watcher
       StageRun run;
       each_phase(
           design.parameters, worlds::hostile_volume(random, design.parameters, grid), step::Phase::heat, 2,
@@ -92,7 +92,7 @@ TEST(HeatStages, LargeGrid) {
     }
 }
 
-// The memories of a stage are its whole lag, and as wide as the scene needs.
+// The memories of a stage hold its whole lag, and are as wide as the scene needs.
 TEST(HeatStages, Memories) {
   for (const auto& [air, walls] : {std::pair{false, false}, {false, true}, {true, false}, {true, true}})
     for (const rule::Law law : kBothLaws)

@@ -1,4 +1,4 @@
-// What the memories of a stage hold is what docs/hardware/pipeline.md says: bits per cell of a plane, and how
+// The memories of a stage hold what docs/hardware/pipeline.md says: so many bits per cell of a plane, and so
 // many cells.
 #include <gtest/gtest.h>
 
@@ -15,15 +15,15 @@ namespace voxmelt::hwmodel {
 namespace {
 
 struct Memory {
-  std::int64_t plane = 0,
-               beside = 0;  // bits: of a word of the plane memory; of the others, per cell of a column
+  // The bits are those of a word of the plane memory. In the other memories they count per cell of a column.
+  std::int64_t plane = 0, beside = 0;
   friend bool operator==(const Memory&, const Memory&) = default;
 };
 void PrintTo(const Memory& memory, std::ostream* out) {
   *out << memory.plane << " (" << memory.beside << ")";
 }
 
-// Checks every stage that has memories, and that what a stage delays is what its memories hold.
+// Checks every stage that has memories. Its memories must hold as much as it delays.
 std::map<StageKind, Memory> memories_of(const std::string& scene_name) {
   constexpr int kLanes = 4;
   const scene::Scene scene =
@@ -41,7 +41,7 @@ std::map<StageKind, Memory> memories_of(const std::string& scene_name) {
     }
     memory.beside = (others + 2 * shape.column()) / (kLanes * shape.column());
     if (memory != Memory{} && stage.kind != StageKind::gravity) memories[stage.kind] = memory;
-    const std::int64_t scan = stage.kind == StageKind::settle ? 1 : 0;  // of its lag: a look ahead, no memory
+    const std::int64_t scan = stage.kind == StageKind::settle ? 1 : 0;  // a look-ahead without memory
     if (stage.kind != StageKind::exchange) {
       EXPECT_EQ(cells, kLanes * (stage.lag - scan)) << name_of(stage.kind);
     }
@@ -79,7 +79,7 @@ TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {
   ADD_FAILURE() << "no exchange";
 }
 
-// A channel is as wide as a cell and what its producer adds to it.
+// A channel is as wide as a cell and the bits that its producer adds to it.
 TEST(MemoryCost, ChannelsAreAsWideAsWhatTheyCarry) {
   const auto widths_of = [](const std::string& scene_name) {
     const scene::Scene scene =

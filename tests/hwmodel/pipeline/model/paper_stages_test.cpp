@@ -1,4 +1,5 @@
-// Gravity and spread of the paper's law against the reference: hostile worlds, every size of grid, faults.
+// Gravity and spread of the paper's law agree with the reference in hostile worlds and every size of grid.
+// Their faults strike.
 #include <cstdint>
 
 #include "hwmodel/pipeline/model/random_block.h"
@@ -26,7 +27,7 @@ TEST(PaperStages, SpreadIsTheReferences) {
     expect_phase(rule::Law::paper, step::Phase::spread, make_spread, 500, 3, seed);
 }
 
-// Sizes around a block of lanes, a word of 64 and nothing at all, on every axis in turn.
+// On every axis in turn, the sizes lie around a block of lanes, a word of 64 and nothing at all.
 TEST(PaperStages, EverySizeOfGrid) {
   int runs = 0;
   for (const int size : {1, 2, 63, 64, 65})
@@ -79,14 +80,14 @@ TEST(PaperStages, GravityFaultsStrikeWhereTheySay) {
 }
 
 TEST(PaperStages, SpreadFaultsStrikeWhereTheySay) {
-  // (Those of `pattern` show inside the phase: faults_test.cpp.)
+  // The faults of `pattern` show inside the phase (faults_test.cpp).
   for (const Fault fault : {Fault::apply_flow_lost, Fault::apply_diagonal_whole, Fault::apply_alpha}) {
     SCOPED_TRACE(static_cast<int>(fault));
     expect_strikes(rule::Law::paper, step::Phase::spread, fault, make_spread, 500, 3, 40);
   }
 }
 
-// The fullest receiver between the fullest givers: the proofs' bounds are reached, and every wire holds.
+// The fullest receiver is between the fullest givers. The proofs' bounds are reached, and every wire holds.
 TEST(PaperStages, WidestSums) {
   for (const int neighbours : {4, 8})
     for (const auto reading : {rule::EnergyReading::text, rule::EnergyReading::printed}) {
@@ -114,7 +115,7 @@ TEST(PaperStages, WidestSums) {
     }
 }
 
-// A line of P cells' tokens through one column of height ny holds what the buffers say, and no more.
+// The buffers hold exactly the tokens of the stage's lag.
 TEST(PaperStages, BuffersSpanTheLag) {
   for (const int neighbours : {4, 8}) {
     Design design{worlds::paper_showcase(), {{64, 32, 8}, 16}};

@@ -1,5 +1,5 @@
-// One world, run by the reference phase by phase: what a phase reads and what it must give, for tests that
-// need more than the random worlds of expect_phase.
+// The reference runs one world phase by phase, and shows the state before and after a phase. It serves tests
+// that need more than the random worlds of expect_phase.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ struct CellAt {
   friend bool operator==(const CellAt&, const CellAt&) = default;
 };
 
-// The first cell in the order of the stream in which two states differ.
+// Returns the first cell in the order of the stream in which two states differ.
 inline std::optional<CellAt> first_difference(const Shape& shape, const state::Volume& a,
                                               const state::Volume& b) {
   std::vector<Cell> left(static_cast<std::size_t>(shape.lanes)), right = left;

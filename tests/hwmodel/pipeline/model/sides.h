@@ -1,5 +1,5 @@
-// The four sides of a cell, from a volume. The side band `beside_wall` is compared with them, or filled
-// from them.
+// The four sides of a cell are read from a volume. Tests compare the side band `beside_wall` with them, or
+// fill it from them.
 #pragma once
 
 #include "hwmodel/pipeline/model/cell.h"

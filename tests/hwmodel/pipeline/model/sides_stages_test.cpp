@@ -1,6 +1,6 @@
-// Which cells stand beside a wall: the bit that conduction (or, without heat, the stage `walls`) writes
-// is the state's at the begin of the step, on every size of grid and number of lanes, and reaches
-// gravity's input.
+// Conduction (or, without heat, the stage `walls`) writes a bit for cells that stand beside a wall. The bit
+// is the state's at the begin of the step, on every size of grid and number of lanes, and reaches gravity's
+// input.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,7 @@ class Probe final : public Stage {
   }
 };
 
-// Cells that falling would treat in another way if the sides were those after the step's melt.
+// Counts the cells that would fall in another way if the sides were those after the step's melt.
 std::int64_t sides_that_melted(const state::Volume& before, const state::Volume& after) {
   std::int64_t count = 0;
   worlds::for_each(worlds::whole(before.grid), [&](int x, int y, int z) {
@@ -47,7 +47,7 @@ struct Totals {
   std::int64_t seen = 0, melted = 0;
 };
 
-// The whole phases heat and melt, or the stage `walls` alone.
+// Runs the whole phases heat and melt, or the stage `walls` alone.
 void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, Totals& totals) {
   Design design{worlds::hostile_parameters(random, rule::Law::paper, grid), {grid, lanes}};
   design.parameters.flow.fall.hang = 1024;
@@ -120,7 +120,7 @@ TEST(SidesStages, WithoutHeatWallsFindsThem) {
   EXPECT_GT(totals.seen, 200000);
 }
 
-// From the step's begin to gravity: the reference's phases, one after another.
+// The stages from the step's begin to gravity do the same as the reference's phases, one after another.
 TEST(SidesStages, FromHeatToGravityIsTheReferences) {
   const auto make_stages = [](const Design& design, const StageMaker& make, Stages& stages) {
     heat_of(design, make, stages);
@@ -131,7 +131,7 @@ TEST(SidesStages, FromHeatToGravityIsTheReferences) {
     expect_phases(rule::Law::paper, step::Phase::heat, step::Phase::gravity, make_stages, 300, 3, seed);
 }
 
-// A scene that needs no sides gets none: no bit in the words, none in the channels.
+// A scene that needs no sides gets none: no bit in the words, and none in the channels.
 TEST(SidesStages, OnlyWhereFallingDependsOnThem) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (const bool hot : {false, true})

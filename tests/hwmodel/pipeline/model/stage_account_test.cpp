@@ -55,7 +55,7 @@ TEST(StageAccount, NothingIsLostAndCyclesSum) {
   EXPECT_EQ(runs, 108);
 }
 
-// Three tokens through one stage that keeps each of them for one move, cycle by cycle.
+// Three tokens pass one stage, cycle by cycle. It keeps each of them for one move.
 TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
   const Design design{{}, {{1, 3, 1}, 1}};
   Late stage(design, 1);
@@ -76,27 +76,27 @@ TEST(StageAccount, EveryCycleIsCountedAsWhatItWas) {
     EXPECT_EQ(stage.cycles().fill_drain, other);
   };
   cycle(true, false);
-  expect(0, 0, 0, 1);  // nothing has come yet
+  expect(0, 0, 0, 1);  // starved: nothing has come yet
   cycle(false, false);
-  expect(1, 0, 0, 1);  // takes the first token
+  expect(1, 0, 0, 1);  // busy: takes the first token
   cycle(true, false);
-  expect(1, 1, 0, 1);  // the second one is late
+  expect(1, 1, 0, 1);  // starved: the second one is late
   cycle(true, false);
-  expect(2, 1, 0, 1);  // takes it, gives the first one
+  expect(2, 1, 0, 1);  // busy: takes the second, gives the first
   cycle(false, true);
-  expect(2, 1, 1, 1);  // which is in the way
+  expect(2, 1, 1, 1);  // blocked: the first one is in the way
   cycle(false, false);
-  expect(3, 1, 1, 1);  // takes the third, gives the second
+  expect(3, 1, 1, 1);  // busy: takes the third, gives the second
   cycle(false, true);
-  expect(3, 1, 2, 1);  // which is in the way
+  expect(3, 1, 2, 1);  // blocked: the second one is in the way
   cycle(false, false);
-  expect(3, 1, 2, 2);  // gives the third
+  expect(3, 1, 2, 2);  // drains: gives the third
   EXPECT_TRUE(stage.done());
   cycle(false, false);
   expect(3, 1, 2, 3);  // nothing is left to do
 }
 
-// In bypass it hands on without lag: three cycles with a token, and one before and behind them.
+// In bypass the stage hands on without lag: three cycles with a token, and one each before and after them.
 TEST(StageAccount, ABypassedPassIsCountedAsSuch) {
   const Design design{{}, {{1, 3, 1}, 1}};
   Late stage(design, 1);
@@ -117,7 +117,7 @@ TEST(StageAccount, ABypassedPassIsCountedAsSuch) {
   EXPECT_EQ(stage.cycles().total(), 5);
 }
 
-// A feed of a time step that does not work is bypassed; one that has fed all of its tokens drains.
+// A feed is bypassed in a time step that does not work. After it has fed all of its tokens, it drains.
 TEST(StageAccount, AFeedIsBypassedOrDrains) {
   const Shape shape{{1, 2, 1}};
   HeatFifo out("feed", 0, 1, 4, 0);
@@ -140,15 +140,15 @@ TEST(StageAccount, AFeedIsBypassedOrDrains) {
   EXPECT_EQ(feed.cycles().fill_drain, 4);
 }
 
-// Counted from docs/automaton.md, by hand. Settle of cold liquid multiplies for a depth squared and for the
-// two parts of a mobility, and divides for the limit and the dead zone.
+// The numbers are counted by hand from docs/automaton.md. Settle of cold liquid multiplies for a depth
+// squared and for the two parts of a mobility. It divides for the limit and the dead zone.
 TEST(StageAccount, UnitsOfSettle) {
   Design design{{}, {{4, 4, 4}, 1}};
   design.parameters.flow.law = rule::Law::viscous;
   const auto units = [&] { return make_stage(StageKind::settle, design)->units(); };
   EXPECT_EQ(units().multipliers, 3);
   EXPECT_EQ(units().dividers, 2);
-  design.parameters.flow.thermal_viscosity = true;  // the table between two of its temperatures
+  design.parameters.flow.thermal_viscosity = true;  // the table is interpolated between two temperatures
   EXPECT_EQ(units().multipliers, 4);
 }
 

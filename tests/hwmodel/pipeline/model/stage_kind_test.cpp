@@ -1,5 +1,5 @@
-// The kinds of stages: their names and phases are those of docs/hardware/pipeline.md, and only stages of a
-// time step can be made.
+// The kinds of stages have the names and phases of docs/hardware/pipeline.md. Only stages of a time step can
+// be made.
 
 #include <cstddef>
 #include <iterator>

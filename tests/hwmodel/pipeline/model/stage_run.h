@@ -22,11 +22,11 @@ namespace voxmelt::hwmodel {
 struct StageRun {
   int depth = 2;
   std::uint64_t stall_seed = 0;
-  std::int64_t cycles = 0;               // of the last run
-  const state::Volume* sides = nullptr;  // what comes in brings the side-band `beside_wall` from here
+  std::int64_t cycles = 0;               // cycles of the last run
+  const state::Volume* sides = nullptr;  // tokens come with the side band `beside_wall` of this volume
 };
 
-// One pass of `volume` through `stages` at `moment`.
+// Runs one pass of `volume` through `stages` at `moment`.
 inline state::Volume run_stages(const Design& design, const Stages& stages, step::Moment moment,
                                 const step::Irradiance* irradiance, const state::Volume& volume,
                                 StageRun& run) {
@@ -82,7 +82,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
   return result;
 }
 
-// Compares `make`'s stages, which must do the phases first..last whole, with the reference. There are
+// Compares the stages of `make`, which must do the phases first..last whole, with the reference. There are
 // `worlds` random hostile worlds of one law, with `steps` steps each. The other phases are the reference's.
 template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& make, int worlds, int steps,

@@ -1,4 +1,5 @@
-// Settle and viscous spread against the reference. Spread reads what settle shows, so the two run together.
+// Settle and viscous spread agree with the reference. Spread reads what settle shows, so the two run
+// together.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +28,7 @@ TEST(ViscousStages, SettleIsTheReferences) {
     expect_phase(rule::Law::viscous, Phase::excess, make_excess, 200, 3, seed);
 }
 
-// Tall columns: some keep the order of their heat, others beside them do not.
+// The columns are tall. Some keep the order of their heat, and others beside them do not.
 TEST(ViscousStages, SettleIsTheReferencesInLayers) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     worlds::Random random(seed);
@@ -61,7 +62,7 @@ TEST(ViscousStages, SpreadIsTheReferences) {
     expect_phases(rule::Law::viscous, Phase::excess, Phase::spread, make_both, 200, 3, seed);
 }
 
-// Both stages on a given world, `count` steps.
+// Runs both stages on a given world for `count` steps.
 void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
   Stages stages;
   make_both(world.design, make_stage, stages);
@@ -92,8 +93,8 @@ TEST(ViscousStages, EverySizeOfAnAxis) {
   EXPECT_EQ(sizes, 90);
 }
 
-// Sums that are whole cells, top cells at ONE / 2, beds higher than a scene may have, and columns so deep
-// that the mobility's depth is cut: what random amounts never hit.
+// These cases are hardly ever hit by random amounts: sums of whole cells, top cells at ONE / 2, and beds
+// higher than a scene may have. Some columns are so deep that the mobility's depth is cut.
 TEST(ViscousStages, BoundsOfTheRules) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     worlds::Random random(seed);
@@ -120,7 +121,7 @@ TEST(ViscousStages, BoundsOfTheRules) {
   }
 }
 
-// The tallest grid, as full as can be: every width at its limit. An overflow would throw.
+// The tallest grid is as full as can be, so every width is at its limit. An overflow would throw.
 TEST(ViscousStages, WidestNumbers) {
   for (const int stiffness : {1, 8})
     for (const int height : {1, 2, 255, 256, 4096}) {
@@ -154,7 +155,7 @@ TEST(ViscousStages, WidestNumbers) {
     }
 }
 
-// Keeps what passes.
+// Keeps the cells that pass.
 class Tap final : public Stage {
  public:
   Tap(const Design& design) : Stage(StageKind::viscous_spread, design, 0) {}
@@ -177,7 +178,7 @@ bool blocked(const state::Volume& v, int x, int y, int z) {
   return !v.grid.contains(x, y, z) || v.solid.test(x, y, z) || v.inert.test(x, y, z);
 }
 
-// Cells that settling leaves in a run, counted cell by cell.
+// Marks the cells that settling leaves in a run, counted cell by cell.
 std::vector<bool> in_runs(const state::Volume& v) {
   std::vector<bool> result(v.grid.cells());
   worlds::for_each({0, 0, 0, v.grid.x, v.grid.y, v.grid.z}, [&](int x, int bottom, int z) {

@@ -1,4 +1,4 @@
-// Worlds of the viscous law for single stages: a hostile volume of a given size, phase by phase.
+// Worlds of the viscous law for single stages have a hostile volume of a given size, and run phase by phase.
 #pragma once
 
 #include "tests/hwmodel/pipeline/model/stage_run.h"
@@ -8,7 +8,7 @@ namespace voxmelt::hwmodel {
 struct ViscousWorld {
   Design design;
   run::Simulation simulation;
-  step::Moment moment{0};  // of the last phase
+  step::Moment moment{0};  // moment of the last phase
 
   ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
       : design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
@@ -18,7 +18,7 @@ struct ViscousWorld {
   ViscousWorld(const Design& the_design, const state::Volume& start)
       : design(the_design), simulation(design.parameters, start, worlds::implementation("reference")) {}
 
-  // Runs a whole step of the reference; at(phase, state before it) after each phase.
+  // Runs a whole step of the reference, and calls at(phase, state before it) after each phase.
   template <class At>
   void step(At&& at) {
     simulation.begin_step();

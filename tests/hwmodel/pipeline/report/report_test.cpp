@@ -1,4 +1,4 @@
-// What the checker says: lines, JSON and the table have the numbers that they name.
+// The checker's reports are tested: lines, JSON and the table have the numbers that they name.
 #include "hwmodel/pipeline/report/report.h"
 
 #include <gtest/gtest.h>
@@ -131,10 +131,10 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
 TEST(Report, JsonOfAMismatchAndOfAPlantedFault) {
   VerifyReport report = report_with_distinct_numbers();
   report.mismatch = std::make_unique<Mismatch>(mismatch_with_distinct_numbers());
-  report.strike = FaultPlan::Strike{"apply", 41, 6, 5, 3};  // one cell off
+  report.strike = FaultPlan::Strike{"apply", 41, 6, 5, 3};  // one cell away from the mismatch
   const auto json = json_of(report, design_of(rule::Law::paper), kMachine);
   EXPECT_EQ(json["mismatches"], 1);
-  for (const char* half : {"digest", "predicted_cycles"})  // numbers of half a pass
+  for (const char* half : {"digest", "predicted_cycles"})  // half a pass has no such numbers
     EXPECT_TRUE(json[half].is_null()) << half;
   EXPECT_EQ(table_of(report, design_of(rule::Law::paper), kMachine), "");
   const auto mismatch = nlohmann::ordered_json::parse(R"({
@@ -147,7 +147,7 @@ TEST(Report, JsonOfAMismatchAndOfAPlantedFault) {
   EXPECT_EQ(json["planted"].dump(1), planted.dump(1));
 }
 
-// In the table the two time steps of `melt` are one line: shares are of the cycles of both.
+// In the table the two time steps of `melt` are one line, so shares are of the cycles of both.
 TEST(Report, TheTableAddsUpTheTimeSteps) {
   const std::string table = table_of(report_with_distinct_numbers(), design_of(rule::Law::paper), kMachine);
   const auto holds = [&](const std::string& text) {
@@ -233,7 +233,7 @@ TEST(Report, TheFirstDifferenceOfEveryField) {
   expect(solid, "state", 1, 2);
 }
 
-// As a stream would meet them: x before y before z.
+// The order is that of a stream: x before y before z.
 TEST(Report, OfManyDifferencesTheFirstIsNamed) {
   const state::Volume base({4, 3, 2});
   state::Volume other = base;

@@ -1,4 +1,5 @@
-// The streams of the pipeline on a DRAM, token by token: which bursts move, when, and where they lie.
+// The streams of the pipeline run on a DRAM, token by token. The test sees each burst, its time and its
+// place.
 #include "hwmodel/pipeline/streams/memory_streams.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-// 32 tokens of 34 bits, the paper's law without heat: a pass has 1088 bits, three bursts of 512. Fifteen
-// tokens are 510 bits.
+// A pass has 32 tokens of 34 bits, under the paper's law without heat. Its 1088 bits take three bursts of
+// 512. Fifteen tokens are 510 bits.
 constexpr int kTokens = 32;
 Design small() {
   Design design;
@@ -28,7 +29,7 @@ class Streams {
     streams_.begin_train({.tile = 0, .fed = fed, .irradiance = light});
     for (int pass = 1; pass < passes; ++pass) streams_.add_pass(0, fed);
   }
-  // Reads and writes as many tokens as it may, in as many cycles; for each side one in a cycle.
+  // Reads and writes as many tokens as it may, in as many cycles. Each side moves at most one in a cycle.
   void run(int to_read, int to_write, int cycles = 400) {
     while (cycles-- > 0) {
       if (to_read > 0 && streams_.may_read(0, now_)) {

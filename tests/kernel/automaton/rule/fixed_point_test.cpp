@@ -1,4 +1,4 @@
-// Rounding and the dither.
+// Rounding and the dither are tested.
 #include "kernel/automaton/rule/fixed_point.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace voxmelt::rule {
 namespace {
 
-// floor(a / b) without shifts.
+// Returns floor(a / b) without shifts.
 std::int64_t floored(std::int64_t a, std::int64_t b) {
   std::int64_t q = a / b;
   while (q * b > a) --q;
@@ -52,7 +52,7 @@ TEST(Dither, PartsAreEvenlySpaced) {
       for (int k = 0; k < n; ++k) ASSERT_EQ(dither(s, k, n), (dither(s) + 65536 * k / n) % 65536);
 }
 
-// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once; 65536 hit
+// Any 2^m steps from a multiple of 2^m on hit each interval of 65536 / 2^m exactly once. All 65536 steps hit
 // every value.
 TEST(Dither, CoversEvenly) {
   for (const int n : {1, 3, 4, 6})
@@ -71,7 +71,7 @@ TEST(Dither, CoversEvenly) {
         }
 }
 
-// So a flow of any fraction of a unit arrives in full over 65536 steps.
+// Therefore a flow of any fraction of a unit arrives in full over 65536 steps.
 TEST(Dither, SumsToTheExactFlow) {
   for (const std::int32_t a : {-40000, -3, -1, 1, 2, 777, 65535})
     for (const std::int32_t w : {1, 3, 10922}) {

@@ -1,4 +1,4 @@
-// Bounds of the vertical rules and of the paper's spreading, at 0, 1, the maximum and in between.
+// The bounds of the vertical rules and of the paper's spreading hold at 0, 1, the maximum and in between.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The bounds of heat (docs/proofs.md) on the real functions.
+// The bounds of heat (docs/proofs.md) hold for the real functions.
 #include "kernel/automaton/rule/heat.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace voxmelt::rule {
 namespace {
 
-// The pair flows of a cell whose 2 `axes` neighbours are all `other`: what the phase adds to its heat.
+// Returns the heat that the phase adds to a cell whose 2 `axes` neighbours are all `other`, pair by pair.
 std::int32_t gain(std::int32_t own, std::int32_t other, std::int32_t weight, std::uint32_t step, int axes) {
   std::int32_t sum = 0;
   for (int k = 0; k < axes; ++k) {
@@ -22,7 +22,7 @@ std::int32_t gain(std::int32_t own, std::int32_t other, std::int32_t weight, std
   return sum;
 }
 
-// The steps where the dithers cover the circular interval [-r, r) best: one dither is at its begin.
+// Returns the step where the dithers cover the circular interval [-r, r) best: one dither is at its begin.
 std::uint32_t worst_step(std::int32_t r, int k, int axes) {
   return static_cast<std::uint32_t>(
       dither(static_cast<std::uint32_t>((2 * 65536 - r - 65536 * k / axes) % 65536)));
@@ -47,7 +47,7 @@ TEST(Conduction, WorstStepIsTheWorst) {
     }
 }
 
-// Every difference U, at the step that is worst for it: a cell never passes its neighbours, up or down.
+// Every difference U meets the step that is worst for it. A cell never passes its neighbours, up or down.
 TEST(Conduction, NeverPassesItsNeighbours) {
   for (const Pass pass : kPasses)
     for (std::int32_t u = 1; u <= 65535; ++u) {
@@ -62,8 +62,8 @@ TEST(Conduction, NeverPassesItsNeighbours) {
     }
 }
 
-// The same for all weights up to the bound at once. With U w = 65536 k + r, 2 n w <= B: U >= 2 n k + ceil(2 n
-// r / B), so it is enough that no step covers [-r, r) more than ceil(2 n r / B) times, for every r.
+// The same holds for all weights up to the bound at once. With U w = 65536 k + r, 2 n w <= B: U >= 2 n k +
+// ceil(2 n r / B). So it is enough that no step covers [-r, r) more than ceil(2 n r / B) times, for every r.
 TEST(Conduction, HoldsForEverySmallerWeight) {
   for (const Pass pass : kPasses) {
     const int n = pass.axes;
@@ -82,7 +82,7 @@ TEST(Conduction, HoldsForEverySmallerWeight) {
 }
 
 TEST(Conduction, OneMoreBreaksIt) {
-  // Values at both ends of the range, where 16 bits could wrap.
+  // These values are at both ends of the range, where 16 bits could wrap.
   bool below_zero = false, above_full = false;
   for (std::int32_t u = 1; u <= 65535; ++u)
     for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,7 @@ TEST(Conduction, OneMoreBreaksIt) {
   EXPECT_TRUE(edges);
 }
 
-// Latent heat: T is monotone and 1-Lipschitz, so the bounds for T hold for h.
+// With latent heat T is monotone and 1-Lipschitz, so the bounds for T hold for h.
 TEST(Latent, TemperatureIsMonotoneAndFlatter) {
   for (const std::int32_t tm : {0, 1, 32768, 65535})
     for (const std::int32_t latent : {0, 1, 20000, 65535}) {
@@ -186,7 +186,7 @@ TEST(Mixing, IsAMean) {
       const std::int32_t h = mixed(content, amount, r);
       ASSERT_TRUE(low <= h && h <= high);
       ASSERT_LT(std::abs(static_cast<std::int64_t>(amount) * h - static_cast<std::int64_t>(content)),
-                static_cast<std::int64_t>(amount));  // `rounded` is less than one unit of heat per mixing
+                static_cast<std::int64_t>(amount));  // one mixing rounds less than one unit of heat
     }
   }
 }

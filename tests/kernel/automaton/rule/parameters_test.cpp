@@ -1,4 +1,5 @@
-// What follows from the parameters alone: steps of visibility, sides of what falls, bounds of spreading.
+// Some values follow from the parameters alone: steps of visibility, sides of falling cells, bounds of
+// spreading.
 #include "kernel/automaton/rule/parameters.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ TEST(Falling, IsFreeWhereEverythingFallsWhole) {
   EXPECT_FALSE(Fall{.hang = 1}.is_free());
 }
 
-// docs/automaton.md, sections 9 and 14.
+// The values are those of docs/automaton.md, sections 9 and 14.
 TEST(Spreading, HasThePagesBounds) {
   EXPECT_EQ(largest_share(8), 13107);
   EXPECT_EQ(largest_share(4), 16384);

@@ -1,6 +1,6 @@
-// The random function: known answers, and statistics over 16.8 million bits. Everything here is fixed, so a
-// bound of 5 standard deviations either always holds or never; a perfect source would fail one of the about
-// 8,000 numbers below with probability 0.5 %.
+// The random function has known answers, and good statistics over 16.8 million bits. Everything here is
+// fixed, so a bound of 5 standard deviations either always holds or never. A perfect source would fail one of
+// the about 8,000 numbers below with probability 0.5 %.
 #include "kernel/automaton/rule/random.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSigmas = 5;
 
-// Speck64/128 as its authors print it (Beaulieu et al. 2013), any number of rounds.
+// Computes Speck64/128 as its authors print it (Beaulieu et al. 2013), for any number of rounds.
 struct Speck {
   std::vector<std::uint32_t> keys;
   Speck(std::uint32_t k, std::vector<std::uint32_t> l, int rounds) : keys{k} {
@@ -64,7 +64,7 @@ TEST(Random, BlocksAndBytes) {
   for (int x = 0; x < 16; ++x) EXPECT_EQ(random_byte(0x0706050403020100u, x), x % 8);
 }
 
-// Eight steps of a cube of 64: 2^21 bytes, index ((step 64 + z) 64 + y) 64 + x.
+// The sample has eight steps of a cube of 64: 2^21 bytes, with the index ((step 64 + z) 64 + y) 64 + x.
 constexpr int kSide = 64, kSteps = 8;
 constexpr std::size_t kBytes = std::size_t{kSteps} * kSide * kSide * kSide;
 
@@ -84,13 +84,13 @@ const std::vector<std::uint8_t>& bytes() {
   return all;
 }
 
-// Standard deviations of `count` hits in n trials of probability p.
+// Returns the deviation of `count` hits in n trials of probability p, in standard deviations.
 double sigmas(double count, double n, double p) {
   return std::abs(count - n * p) / std::sqrt(n * p * (1 - p));
 }
 
 TEST(Random, EveryBitIsFair) {
-  std::vector<int> ones(64);  // of each bit of a block
+  std::vector<int> ones(64);  // ones of each bit of a block
   for (std::size_t i = 0; i < kBytes; ++i)
     for (std::size_t b = 0; b < 8; ++b) ones[8 * (i % 8) + b] += bytes()[i] >> b & 1;
   double total = 0;
@@ -101,7 +101,7 @@ TEST(Random, EveryBitIsFair) {
   EXPECT_LT(sigmas(total, 8.0 * kBytes, 0.5), kSigmas);
 }
 
-// The largest deviation, in sigmas, of "bit a of one cell equals bit b of the other" over all a, b.
+// Returns the largest deviation, in sigmas, of "bit a of one cell equals bit b of the other" over all a, b.
 double worst_agreement(const std::vector<std::uint8_t>& first, const std::vector<std::uint8_t>& second,
                        std::size_t offset, std::size_t row) {
   std::array<std::array<int, 8>, 8> equal{};
@@ -163,7 +163,7 @@ TEST(Random, PatternsAndSubsetsAreEquallyLikely) {
       }
     }
   }
-  // And all 256 together: chi-square has mean 255 and deviation sqrt(2 x 255).
+  // All 256 patterns are tested together, too: chi-square has mean 255 and deviation sqrt(2 x 255).
   double chi2 = 0;
   for (const int count : pattern)
     chi2 += (count - kBytes / 256.0) * (count - kBytes / 256.0) / (kBytes / 256.0);

@@ -1,5 +1,5 @@
-// The path of a point source between two keys (docs/automaton.md, "Visibility and irradiance"), up to the
-// largest powers, distances and steps that a scene may name. The expected values are worked out by hand.
+// A point source moves between two keys (docs/automaton.md, "Visibility and irradiance"). The test goes up to
+// the largest powers, distances and steps that a scene may name. The expected values are worked out by hand.
 #include "kernel/automaton/rule/source.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Between, FloorsBothSlopes) {
   EXPECT_EQ(between(0, -1, 1, 1000), -1);
 }
 
-// Over n = 2^32 - 1 steps 2^50 - 1 is 2^18 n + 2^18 - 1: each step goes 2^18 and less than 2^-14 farther.
+// Over n = 2^32 - 1 steps 2^50 - 1 is 2^18 n + 2^18 - 1. So each step goes 2^18 and less than 2^-14 farther.
 TEST(Between, PowersOverAllSteps) {
   constexpr std::int64_t n = kLastStep, p18 = std::int64_t{1} << 18;
   EXPECT_EQ(between(0, kMostPower, 0, n), 0);
@@ -34,11 +34,11 @@ TEST(Between, PowersOverAllSteps) {
   EXPECT_EQ(between(kMostPower, 0, 0, n), kMostPower);
   EXPECT_EQ(between(kMostPower, 0, 1, n), kMostPower - p18 - 1);
   EXPECT_EQ(between(kMostPower, 0, n - 1, n), p18);
-  // Half of n + 1 steps: (2^50 - 1) / 2 + (2^50 - 1) / 2n = 2^49 - 1/2 + 2^17 + less than 1/2.
+  // After half of n + 1 steps it is (2^50 - 1) / 2 + (2^50 - 1) / 2n = 2^49 - 1/2 + 2^17 + less than 1/2.
   EXPECT_EQ(between(0, kMostPower, (n + 1) / 2, n), (std::int64_t{1} << 49) + (std::int64_t{1} << 17) - 1);
 }
 
-// 2^25 sixteenths in 2^32 - 1 steps: 1/128 a step.
+// The source moves 2^25 sixteenths in 2^32 - 1 steps, which is 1/128 a step.
 TEST(Between, PositionsOverAllSteps) {
   constexpr std::int64_t n = kLastStep;
   EXPECT_EQ(between(-kFar, kFar, 1, n), -kFar);
@@ -65,7 +65,7 @@ TEST(Between, IsTheFloorOf128Bits) {
   }
 }
 
-// Power 4194303 in the file is 4194303 x 2^28; 2^28 / 16384 = 2^14 of it come with each step.
+// Power 4194303 in the file is 4194303 x 2^28. With each step come 2^28 / 16384 = 2^14 of it.
 TEST(SourceAt, GrowsToTheMostThatAFileMayName) {
   constexpr std::uint64_t most = std::uint64_t{4194303} << 28, each = std::uint64_t{4194303} << 14;
   const HeatSource source{{{0, {0, 0, 0}, 0}, {16384, {kFar, -kFar, 1}, most}}};
@@ -77,7 +77,7 @@ TEST(SourceAt, GrowsToTheMostThatAFileMayName) {
   EXPECT_EQ(at.z, 0);
 }
 
-// (5 - 2) x 1 / 2 = 1.5; (-9 - 2) / 2 = -5.5, down to -6; 7 stays.
+// (5 - 2) x 1 / 2 is 1.5, (-9 - 2) / 2 is -5.5, rounded down to -6, and 7 stays.
 TEST(SourceAt, RadiusAndDirectionMoveToo) {
   const HeatSource source{
       {{.step = 1, .radius = 2, .direction = {2, 7, 0}}, {.step = 3, .radius = 5, .direction = {-9, 7, 4}}},

@@ -1,4 +1,4 @@
-// The viscous law's column and flow.
+// The viscous law's column and flow are tested.
 #include "kernel/automaton/rule/viscous.h"
 
 #include <gtest/gtest.h>
@@ -38,9 +38,9 @@ TEST(Settled, KeepsTheSumAndTheBounds) {
 }
 
 TEST(Run, Continues) {
-  EXPECT_TRUE(run_continues(kOne + 1, 1, kOne + 1, 0));  // over-full: into air too
+  EXPECT_TRUE(run_continues(kOne + 1, 1, kOne + 1, 0));  // over-full: it continues into air, too
   EXPECT_FALSE(run_continues(kOne, 1, kOne, 0));
-  EXPECT_TRUE(run_continues(kOne / 2, 1, kOne / 2, 1));              // half full, more above
+  EXPECT_TRUE(run_continues(kOne / 2, 1, kOne / 2, 1));              // half full, with more above
   EXPECT_FALSE(run_continues(kOne / 2 - 1, 1, kOne / 2 - 1, kOne));  // falling liquid above a film
 }
 
@@ -58,14 +58,14 @@ TEST(RunColumn, HeadIsTheFreeSurface) {
   EXPECT_EQ(run_column(8, 1, 0, 0, flow).head, 1);
   EXPECT_EQ(bed_head(2, kBedHalf + 2048), 2 * 512 + 256);
   EXPECT_EQ(bed_head(2, 0), 2 * 512 - 256);
-  // Over-full by one cell under a ceiling: eight times as high.
+  // Under a ceiling, the one cell that is too much counts eight times in the head.
   EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow).head, 4 * 512 + 7 * 512);
   EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow_of(1, 0, 1)).head, 4 * 512);
 }
 
 TEST(RunColumn, MobilityIsQuadraticAndLimited) {
   const Flow gentle = flow_of(19088744);  // kappa 0.02
-  // 2/9 x 0.02 of 2^24 is 74565.4; at depth 2 four times that; at depth 1/64 4096 times less.
+  // 2/9 x 0.02 of 2^24 is 74565.4. At depth 2 it is four times that, and at depth 1/64 it is 4096 times less.
   EXPECT_EQ(run_column(kOne, 1, 0, 0, gentle).mobility, 74565);
   EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, gentle).mobility, 298262);
   EXPECT_EQ(run_column(kOne / 64, 1, 0, 0, gentle).mobility, 18);
@@ -83,14 +83,14 @@ TEST(RunColumn, MobilityIsQuadraticAndLimited) {
       ASSERT_GE(c.dead, 1);
       ASSERT_TRUE(c.in_run);
     }
-  // Thermal viscosity: half at 16384.
+  // Thermal viscosity makes it half at 16384.
   Flow warm = gentle;
   warm.thermal_viscosity = true;
   warm.mobility_table.fill(16384);
   EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, warm).mobility, 149131);
 }
 
-// A fifth of a cell, less by depth; an overfull run is stiffer.
+// The limit is a fifth of a cell, and less by depth. An overfull run is stiffer.
 TEST(RunColumn, Limit) {
   const Flow flow = flow_of(19088744);
   EXPECT_EQ(run_column(kOne - 1, 1, 0, 0, flow).limit, 13107);
@@ -124,21 +124,21 @@ TEST(PairDither, SubstepsRoundAsOneStep) {
           for (int k = 0; k < n; ++k) sum += (x + pair_dither(step, axis, 0, k, n)) >> 16;
           ASSERT_EQ(sum, (n * x + dither(step, axis, 4)) >> 16) << n << " sub-steps";
         }
-  // By hand, n = 2, D = 0: 0 and 1/2; the axis 2 begins with its second one.
+  // By hand, n = 2 and D = 0 give 0 and 1/2. Axis 2 begins with its second one.
   EXPECT_EQ(pair_dither(0, 0, 0, 0, 2), 0);
   EXPECT_EQ(pair_dither(0, 0, 0, 1, 2), 32768);
   EXPECT_EQ(pair_dither(0, 2, 0, 0, 2), 49152);  // (1/2 + 1) / 2
   EXPECT_EQ(pair_dither(0, 2, 0, 1, 2), 16384);
 }
 
-// Bits in reverse order: heights 0 to 3 are at 0, 1/2, 1/4 and 3/4. Axis 1 is a quarter ahead.
+// The bits come in reverse order: heights 0 to 3 are at 0, 1/2, 1/4 and 3/4. Axis 1 is a quarter ahead.
 TEST(PairDither, LayersRoundInTurn) {
   for (const auto& [y, axis0, axis1] :
        {std::array{0, 0, 16384}, {1, 32768, 49152}, {2, 16384, 32768}, {3, 49152, 0}}) {
     EXPECT_EQ(pair_dither(0, 0, y, 0, 1), axis0);
     EXPECT_EQ(pair_dither(0, 1, y, 0, 1), axis1);
   }
-  // Of 16 layers that each give x, 16 x flows at every step, to a unit.
+  // If 16 layers each give x, 16 x flows at every step, to a unit.
   for (std::uint32_t step = 0; step < 64; ++step)
     for (const std::int32_t x : {0, 4096, 20480, 61440, 69632}) {
       std::int32_t sum = 0;
@@ -154,14 +154,14 @@ TEST(MixingDither, IsTheStepsInItsFirstSubstep) {
 }
 
 TEST(RunColumn, YieldMakesADeadZone) {
-  const Flow flow = flow_of(19088744, 655);                    // 0.01
+  const Flow flow = flow_of(19088744, 655);                    // a yield of 0.01
   EXPECT_EQ(run_column(kOne, 1, 0, 0, flow).dead, 5);          // 1310 / 256 = 5.12
   EXPECT_EQ(run_column(kOne / 4, 1, 0, 0, flow).dead, 20);     // 1310 / 64 = 20.5
   EXPECT_EQ(run_column(100 * kOne, 100, 0, 0, flow).dead, 1);  // at least one unit
   EXPECT_EQ(run_column(1, 1, 0, 0, flow).dead, 1310);
 }
 
-// Mobility in 1/65536.
+// Makes a column in a run. The mobility is in 1/65536.
 Column run_at(std::int32_t head, std::int32_t mobility, std::int32_t dead = 1) {
   return {head, mobility << 8, mobility << 8, dead, true, kNoBed, 13107};
 }
@@ -207,7 +207,7 @@ TEST(ViscousFlow, GrowsWithDropAmountAndMobility) {
     }
 }
 
-// An axis flow of one cell of drop is the mean mobility times the amount; a diagonal one a quarter of it.
+// An axis flow at one cell of drop is the mean mobility times the amount. A diagonal one is a quarter of it.
 TEST(ViscousFlow, Value) {
   EXPECT_EQ(viscous_flow(run_at(kHeadOne, 4096), 4096, run_at(0, 4096), 4096, false, 0),
             256);  // 4096 x 4096 / 65536
@@ -216,9 +216,9 @@ TEST(ViscousFlow, Value) {
             128);  // a dry bed has no mobility
 }
 
-// Axes 1 / (1 + 2 s^2): 2/3 at 1/2, 1/3 at 1. Diagonals 1 / (1 + s^2 + s^4)^2: (16/21)^2 and 1/9.
-// Beside a run, or above one, at most twice the giver's limit: 200/65536 of 4096 over two. A bare flank has
-// its own bound.
+// Axes get 1 / (1 + 2 s^2): 2/3 at 1/2, 1/3 at 1. Diagonals get 1 / (1 + s^2 + s^4)^2: (16/21)^2 and 1/9.
+// Beside a run, or above one, the flow is at most twice the giver's limit: 200/65536 of 4096 over two. A bare
+// flank has its own bound.
 TEST(ViscousFlow, ADeepGiverHoldsBack) {
   Column giver = run_at(kHeadOne, 100);
   giver.limit = 100;
@@ -248,7 +248,7 @@ TEST(SlopeFactor, Value) {
   }
 }
 
-// A film on a plane of slope S: axes carry 2/3, diagonals 1/3, and the sum goes straight down.
+// On a plane of slope S, a film's axes carry 2/3 and its diagonals 1/3, and the sum goes straight down.
 TEST(SlopeFactor, AFilmCarriesNusseltsFluxInEveryDirection) {
   const auto factor = [](double between, bool diagonal) {
     return slope_factor(0, static_cast<std::int32_t>(std::lround(16 * std::abs(between))), diagonal) /
@@ -271,7 +271,7 @@ Column run_on(std::int32_t bed, Column column) {
   return column;
 }
 
-// Of 256 (a diagonal: 64), that flow between level beds, 2/3 on slope 1/2 (a diagonal: 0.5805) and 1/3 on 1.
+// 256 (diagonals: 64) flow between level beds. 2/3 of it flow on slope 1/2 (diagonals: 0.5805), and 1/3 on 1.
 TEST(ViscousFlow, IsLessOnASlope) {
   const auto flow = [](std::int32_t bed, bool diagonal, std::int32_t dither) {
     return viscous_flow(run_on(24, run_at(kHeadOne, 4096)), 4096, run_on(bed, run_at(0, 4096)), 4096,
@@ -279,9 +279,9 @@ TEST(ViscousFlow, IsLessOnASlope) {
   };
   EXPECT_EQ(flow(24, false, 0), 256);
   EXPECT_EQ(flow(16, false, 0), 170);      // 170.66
-  EXPECT_EQ(flow(16, false, 24576), 171);  // and 3/8
+  EXPECT_EQ(flow(16, false, 24576), 171);  // and the dither adds 3/8
   EXPECT_EQ(flow(16, true, 0), 37);        // 37.14
-  EXPECT_EQ(flow(16, true, 57344), 38);    // and 7/8
+  EXPECT_EQ(flow(16, true, 57344), 38);    // and the dither adds 7/8
   EXPECT_EQ(flow(0, false, 0), 85);
 }
 
@@ -300,7 +300,8 @@ TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
   }
 }
 
-// Mobilities of 1/16: a drop of one cell moves 1/16 of the amount that flows. Cells of 3000 and 1001.
+// With mobilities of 1/16, a drop of one cell moves 1/16 of the amount that flows. The cells hold 3000 and
+// 1001.
 TEST(ViscousFlow, TheMeanOfBothFlowsBetweenLevelBeds) {
   const Column giver = run_on(24, run_at(kHeadOne, 4096)), level = run_on(24, run_at(0, 4096));
   EXPECT_EQ(viscous_flow(giver, 3000, level, 1001, false, 0), 125);  // 2001 / 16 = 125.06
@@ -309,7 +310,7 @@ TEST(ViscousFlow, TheMeanOfBothFlowsBetweenLevelBeds) {
   Column low = bed_column(24 * kHeadOne / 16);
   low.head = 0;
   EXPECT_EQ(viscous_flow(giver, 3000, low, 0, false, 0), 46);  // a dry bed: 1500 / 32 = 46.9
-  // The giver's alone where the beds differ, or where there is none.
+  // If the beds differ, or there is none, the giver's amount alone counts.
   EXPECT_EQ(viscous_flow(giver, 3000, run_on(23, level), 1001, false, 0), 186);  // 187.5 x 16257 / 16384
   EXPECT_EQ(viscous_flow(giver, 3000, run_on(kNoBed, level), 1001, false, 0), 187);
   EXPECT_EQ(viscous_flow(run_on(kNoBed, giver), 3000, run_on(kNoBed, level), 1001, false, 0), 187);

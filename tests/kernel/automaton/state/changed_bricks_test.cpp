@@ -1,5 +1,5 @@
-// Who is told what of a volume's changes. (tests/kernel/engine/parallel/equal.h holds that every change of
-// every implementation is told.)
+// Each follower of a volume is told of its changes. In tests/kernel/engine/parallel/equal.h every change of
+// every implementation must be told.
 #include "kernel/automaton/state/changed_bricks.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(ChangedBricks, MarksTheBricksOfWords) {
   EXPECT_TRUE(changed.none_since(seen));
   changed.new_version();
   changed.mark(ChangedBricks::kMatter, std::uint64_t{1} << 2 | std::uint64_t{1} << 40, 1,
-               1);  // cells 128 to 149, and none
+               1);  // cells 128 to 149, and beyond the row
   EXPECT_FALSE(changed.all_since(seen) || changed.none_since(seen));
   const std::size_t row = 19 * (3 * 1 + 1);
   EXPECT_EQ(newer(changed, seen), (std::vector<std::size_t>{row + 16, row + 17, row + 18}));
@@ -81,7 +81,7 @@ TEST(ChangedBricks, AreNoPartOfTheState) {
   EXPECT_TRUE(volume == same);
 }
 
-// A simulation tells of its steps, and counts what others may have changed by hand.
+// A simulation tells of its steps, and counts all as changed that others may have changed by hand.
 TEST(ChangedBricks, FollowASimulation) {
   for (const step::Implementation& implementation : run::implementations().all()) {
     if (!implementation.supported) continue;

@@ -31,7 +31,7 @@ TEST(Detached, ABowlOnItsStemStandsUntilTheStemMelts) {
   EXPECT_EQ(count_detached(v), 0);
   v.solid.set(4, 2, 4, false);
   EXPECT_EQ(count_detached(v), 50 + 1);
-  put_inert(v, 1, 4, 2);  // and hangs again on a wall beside it
+  put_inert(v, 1, 4, 2);  // it hangs again, on a wall beside it
   EXPECT_EQ(count_detached(v), 0);
 }
 
@@ -43,7 +43,7 @@ TEST(Detached, EdgesAndCornersDoNotHold) {
   EXPECT_EQ(count_detached(v), 2);
 }
 
-// The borders at the sides and above hold nothing; liquid neither.
+// The borders at the sides and above hold nothing, and neither does liquid.
 TEST(Detached, OnlyTheBottomAndInertHold) {
   Volume v(Grid{3, 3, 3});
   put_solid(v, 0, 2, 0);
@@ -53,7 +53,7 @@ TEST(Detached, OnlyTheBottomAndInertHold) {
   EXPECT_EQ(count_detached(v), 0);
 }
 
-// Cell by cell, from neighbour to neighbour.
+// Counts cell by cell, from neighbour to neighbour.
 std::int64_t detached_plainly(const Volume& v) {
   const Grid g = v.grid;
   std::set<std::array<int, 3>> held;
@@ -79,7 +79,8 @@ std::int64_t detached_plainly(const Volume& v) {
   return v.solid.count() - static_cast<std::int64_t>(held.size());
 }
 
-// Widths of one word, a whole one, and some; sponges in which ways are long, and dust.
+// The widths are below one word, a whole one, and more. The worlds are sponges in which ways are long, and
+// dust.
 TEST(Detached, ASpongeIsThatOfAPlainWalk) {
   std::mt19937 random(19);
   std::int64_t most = 0, least = 1 << 30;

@@ -1,4 +1,4 @@
-// The digest against the page's formula (docs/automaton.md, section 13), written again from scratch.
+// The digest is compared with the page's formula (docs/automaton.md, section 13), written again from scratch.
 #include "kernel/automaton/state/digest.h"
 
 #include <gtest/gtest.h>

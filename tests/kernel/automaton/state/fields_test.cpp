@@ -1,4 +1,4 @@
-// The table of fields, and what follows from it: parts of volumes, and where two of them differ.
+// The table of fields determines parts of volumes, and the first difference of two volumes.
 #include "kernel/automaton/state/fields.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace voxmelt::state {
 namespace {
 
-// Sections 1 and 13 of docs/automaton.md: a cell outside is inert and flat (offset 2048); the places in a
-// cell's word. Exports of all versions have this order.
+// Sections 1 and 13 of docs/automaton.md say that a cell outside is inert and flat (offset 2048), and give
+// the places in a cell's word. Exports of all versions have this order.
 TEST(Fields, AreThoseOfTheDefinitionInTheOrderOfFiles) {
   struct Expected {
     const char* name;
@@ -27,7 +27,7 @@ TEST(Fields, AreThoseOfTheDefinitionInTheOrderOfFiles) {
                                    {"amount", 16, 0, 2048}, {"energy", 16, 16, 0}, {"heat", 16, 32, 0}};
   std::size_t n = 0;
   for_each_field([&](const auto& row) {
-    if (n == page.size()) return;  // what came later
+    if (n == page.size()) return;  // a field that came later
     EXPECT_EQ(row.name, page[n].name);
     EXPECT_EQ(row.bits, page[n].bits) << row.name;
     EXPECT_EQ(row.digest_bit, page[n].digest_bit) << row.name;
@@ -105,7 +105,7 @@ TEST(Difference, IsTheFirstOneOfAnyField) {
     Volume other = base;
     const std::uint32_t was = value_at(base.*row.column, 66, 1, 1);
     set_value(other.*row.column, 66, 1, 1, was ^ 1);
-    other.heat[other.at(0, 2, 1)] = 9;  // a later one
+    other.heat[other.at(0, 2, 1)] = 9;  // a later difference
     const auto found = first_difference(base, other);
     ASSERT_TRUE(found) << row.name;
     EXPECT_EQ(text_of(*found), std::string(row.name) + " at 66, 1, 1: expected " + std::to_string(was) +

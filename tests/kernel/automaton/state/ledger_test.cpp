@@ -1,4 +1,4 @@
-// Books that balance, and that show a planted leak of one unit.
+// The books balance, and show a planted leak of one unit.
 #include "kernel/automaton/state/ledger.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Holdings, LargestCells) {
   EXPECT_EQ(held.heat, Sum{65536} * 65535 * 65535);
 }
 
-// Signs as in docs/automaton.md, section 12: a power of ten for each term.
+// The signs are those of docs/automaton.md, section 12. Each term is another power of ten.
 TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
   Ledger l;
   l.mass.start = 5000;
@@ -121,7 +121,7 @@ TEST(Ledger, TermsOfManyWorkersAddUp) {
   EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 36, 22, 24, 26, 28, 30, 32, -34}));
 }
 
-// A run that uses every term of the ledgers.
+// Makes a run that uses every term of the ledgers.
 enum class Case { paper, paper_printed, viscous };
 run::Simulation busy(Case which) {
   Parameters p = which == Case::viscous ? viscous(0.02, 0.002) : paper_showcase();

@@ -1,4 +1,4 @@
-// Comparing and copying states. Every other comparison of states relies on these.
+// States are compared and copied. Every other comparison of states relies on these.
 #include <gtest/gtest.h>
 
 #include <array>

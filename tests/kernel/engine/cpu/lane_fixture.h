@@ -1,4 +1,4 @@
-// One test per instruction set that this processor has.
+// Runs a test once per instruction set that this processor has.
 #pragma once
 
 #include <gtest/gtest.h>

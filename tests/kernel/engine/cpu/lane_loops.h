@@ -1,4 +1,4 @@
-// The operations of tests/kernel/engine/cpu/lane_operations.h for one instruction set.
+// Implements the operations of tests/kernel/engine/cpu/lane_operations.h for one instruction set.
 #pragma once
 
 #include <cstddef>

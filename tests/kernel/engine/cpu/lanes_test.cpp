@@ -1,4 +1,4 @@
-// Operations on whole vectors, and those whose domain is too large to be gone through.
+// Operations on whole vectors are tested, and those whose domain is too large to be gone through.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -137,7 +137,7 @@ TEST_P(Vectors, SumsHoldAsManyVectorsAsTheySay) {
   }
 }
 
-// Divisions collected into rows.
+// Collects divisions into rows.
 class Divider {
  public:
   explicit Divider(const Operations& own) : own_(own) {}
@@ -172,7 +172,7 @@ class Divider {
   int wrong_ = 0;
 };
 
-// Where a rounded quotient would cross to the next: at multiples of every divisor.
+// At multiples of every divisor a rounded quotient would cross to the next.
 TEST_P(Vectors, DivisionIsExactAroundMultiples) {
   const auto divider = std::make_unique<Divider>(own_);
   Numbers random(6);
@@ -277,7 +277,8 @@ TEST_P(Vectors, DiceAreTheRules) {
     const auto step =
         round < 4 ? 0u - static_cast<std::uint32_t>(round) : static_cast<std::uint32_t>(random());
     std::uint32_t blocks[2];
-    for (std::uint32_t& block : blocks) {  // one in four near 2^32: numbers of blocks turn over
+    // One block in four is near 2^32, where numbers of blocks turn over.
+    for (std::uint32_t& block : blocks) {
       block = static_cast<std::uint32_t>(random());
       if (random() % 4 == 0) block |= 0xFFFFFFF8u;
     }

@@ -1,5 +1,5 @@
-// Operations on two 16-bit numbers, each with every value of the first: against kernel/automaton/rule, or
-// integers. VOXMELT_SLOW: every value of the second, too; else 257 of them.
+// Operations on two 16-bit numbers, each with every value of the first, agree with kernel/automaton/rule or
+// with integers. VOXMELT_SLOW takes every value of the second, too. Otherwise the test takes 257 of them.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ class Rows : public LanesTest {
     for (std::size_t a = 0; a < kAllValues; ++a) rows_->all[a] = static_cast<std::uint16_t>(a);
   }
 
-  // f(a, s, r) for every a.
+  // Expects f(a, s, r) for every a.
   template <class F>
   void expect(RowOperation operation, int s, int r, const F& f) {
     const std::uint16_t *all = rows_->all.data(), *got = rows_->got.data();
@@ -37,7 +37,7 @@ class Rows : public LanesTest {
     for (int a = 0; a < 65536; ++a)
       ASSERT_EQ(got[a], f(a, s, r) & 0xFFFF) << "a " << a << ", s " << s << ", r " << r;
   }
-  // s = 0..65535, those `every` apart, and the last.
+  // Takes s = 0..65535, every `every`-th value, and the last.
   template <class F>
   void expect_all(RowOperation operation, int r, int every, const F& f) {
     for (int s = 0; s < 65535; s += every) ASSERT_NO_FATAL_FAILURE(expect(operation, s, r, f));

@@ -1,4 +1,4 @@
-// Every task runs once, and what it wrote is there when the run ends, whichever thread ran it.
+// Every task runs once, and its writes are visible when the run ends, whichever thread ran it.
 #include "kernel/engine/cpu/workers.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(Workers, EveryTaskOnceAndItsResultThere) {
   }
 }
 
-// What one run wrote, another task of the next one reads.
+// A task reads the results of another task of the run before.
 TEST(Workers, RunsSeeWhatEarlierRunsWrote) {
   Workers workers(4);
   std::vector<std::int64_t> now(64), next(64);
@@ -71,14 +71,14 @@ TEST(Workers, TwoThreadsRunAtOnce) {
   Workers workers(2);
   for (int round = 0; round < 5; ++round) {
     std::atomic<int> there{0};
-    // Two tasks that wait for each other need two threads (or give up).
+    // Two tasks that wait for each other need two threads, or give up.
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     workers.run(2, [&](int) {
       for (++there; there < 2 && std::chrono::steady_clock::now() < give_up;) std::this_thread::yield();
     });
     EXPECT_EQ(there, 2);
     EXPECT_LT(std::chrono::steady_clock::now(), give_up) << "nobody helped";
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // and again when they have gone to sleep
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the next round finds them asleep
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Workers, ManyShortLivesAndSeveralAtOnce) {
   EXPECT_EQ(sum, 4 * 500 * 6);
 }
 
-// Repeated tasks run with the longest first, each once. After a change of their number all are alike.
+// Repeated tasks run once each, and the longest runs first. If their number changes, all count as alike.
 TEST(Turns, TheDearestFirst) {
   Turns turns;
   turns.sort(4);

@@ -1,6 +1,6 @@
-// Whole steps, between whose phases nobody looks: gravity may run a slice ahead of spread, in bands of tile
-// rows. After every step the state and the books must be the reference's, on worlds that are full, nearly
-// full in some slices, and thin.
+// In whole steps nobody looks between the phases. So gravity may run a slice ahead of spread, in bands of
+// tile rows. After every step the state and the books must be the reference's, on worlds that are full,
+// nearly full in some slices, and thin.
 #include <cstdint>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace worlds;
 
-// Taller than a band, or with slices enough for several chunks, or both.
+// Returns a grid that is taller than a band, or has slices enough for several chunks, or both.
 Grid tall_grid(Random& random) {
   const int kind = random.below(3);
   if (kind == 0) return {random.any({5, 63, 64, 130}), random.between(30, 100), random.between(1, 6)};
@@ -28,7 +28,7 @@ step::Tuning any_tuning(Random& random) {
   return tuning;
 }
 
-// Every cell that may be is liquid and moves.
+// Makes every cell liquid that may be, so that it moves.
 void fill_up(Random& random, Volume& v, int z_begin, int z_end) {
   for_each({0, 0, z_begin, v.grid.x, v.grid.y, z_end}, [&](int x, int y, int z) {
     if (v.solid.test(x, y, z) || v.inert.test(x, y, z)) return;
@@ -45,7 +45,7 @@ bool same_whole_steps(const Parameters& parameters, const Volume& start, const s
   state::ChangedBricks::Seen seen = actual.volume().changed.now();
   for (int step = 0; step < count; ++step) {
     expected.step();
-    if (random.one_in(4)) {  // somebody looks in between
+    if (random.one_in(4)) {  // the state is read between the phases
       actual.begin_step();
       for (const step::Phase phase : actual.phases()) actual.run_phase(phase);
       actual.end_step();

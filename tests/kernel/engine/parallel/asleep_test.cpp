@@ -1,5 +1,5 @@
-// What rests costs nothing: for a flat pool the paper law's kernels are not even called. (Other tests check
-// that sleeping tiles have the right bits. This one checks that tiles sleep.)
+// Tiles that rest cost nothing: for a flat pool the paper law's kernels are not even called. Other tests
+// check that sleeping tiles have the right bits. This one checks that tiles sleep.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -35,7 +35,7 @@ TileRow apply(const simd::View& v, const simd::Step& s, int z, int r, const simd
   return counted.apply(v, s, z, r, below, own, above, books);
 }
 
-// How often the kernels are called in each of some steps.
+// Counts the calls of the kernels in each of some steps.
 std::vector<int> calls_of_steps(cpu::InstructionSet set, const Parameters& parameters, Volume volume,
                                 int steps) {
   counted = simd::kernels(set, parameters);
@@ -69,7 +69,7 @@ std::vector<int> calls_of_steps(cpu::InstructionSet set, const Parameters& param
 
 class Asleep : public testing::TestWithParam<cpu::InstructionSetRow> {};
 
-// With energy to spread, and nowhere to: every cell is full, and its neighbours are.
+// The pool has energy to spread, and nowhere to spread to: every cell is full, and its neighbours are.
 TEST_P(Asleep, FlatPoolsCallNoKernel) {
   if (!cpu::supported(GetParam().set)) GTEST_SKIP() << "not on this processor";
   for (const int neighbours : {4, 8})
@@ -84,7 +84,7 @@ TEST_P(Asleep, FlatPoolsCallNoKernel) {
       EXPECT_GT(called[0], 0) << "nothing is known about the first state";
       EXPECT_EQ(called[2], 0) << neighbours << " neighbours, " << width << " wide";
       EXPECT_EQ(called[3], 0);
-      // One cell is too full. It wakes what is near, and nothing else.
+      // One cell is too full. It wakes only its surroundings.
       put(pool, width / 2, 10, 3, 3 * kOne, kOne);
       EXPECT_GT(calls_of_steps(GetParam().set, p, pool, 4)[2], 0);
     }

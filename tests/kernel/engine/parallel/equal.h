@@ -1,4 +1,4 @@
-// Two implementations side by side: after every phase the same state and the same books.
+// Two implementations run side by side. After every phase they must have the same state and the same books.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@
 
 namespace voxmelt::worlds {
 
-// The first difference of two states, with both values; empty where there is none.
+// Returns the first difference of two states, with both values, or nothing if they are equal.
 inline std::string difference(const Volume& expected, const Volume& actual) {
   if (expected == actual) return {};
   const auto found = state::first_difference(expected, actual);
   return found ? text_of(*found) : "the padding, which must stay 0";
 }
 
-// A cell that is not what it was, in a brick that is not told to have changed; empty where there is none.
+// Returns the field of a changed cell in a brick whose change was not told, or nothing if all was told.
 inline std::string untold(const Volume& before, const state::ChangedBricks::Seen& seen, const Volume& after) {
   if (after.changed.all_since(seen)) return {};
   const Grid bricks = state::brick_grid(after.grid);
@@ -44,7 +44,8 @@ inline const step::Implementation& implementation(const std::string& name) {
   return *run::implementations().find(name);
 }
 
-// Runs both for `count` steps; false at the first difference, or the first change that is not told.
+// Runs both for `count` steps. Returns false at the first difference, or at the first change that is not
+// told.
 inline bool same_steps(const Parameters& parameters, const Volume& start, const std::string& name,
                        const step::Tuning& tuning, int count) {
   run::Simulation expected(parameters, start, implementation("reference"));

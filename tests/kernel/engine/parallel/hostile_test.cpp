@@ -1,5 +1,5 @@
-// Every instruction set, with threads, tiles of any size, asleep or not, gives the bits of the reference: on
-// random hostile states, on grids that straddle words and tiles.
+// Every instruction set gives the bits of the reference, with threads and tiles of any size, asleep or not.
+// The states are random and hostile, and the grids straddle words and tiles.
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -38,7 +38,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
     Random random(seed * 7919 + (law == rule::Law::paper ? 1 : 2));
     const Grid grid = any_grid(random);
     Parameters parameters = hostile_parameters(random, law, grid);
-    if (random.one_in(2)) parameters.heat = {};  // so that things come to rest, and sleep
+    if (random.one_in(2)) parameters.heat = {};  // so that cells come to rest, and tiles sleep
     if (random.one_in(2)) {
       parameters.vents.clear();
       parameters.drains.clear();
@@ -51,7 +51,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
   }
 }
 
-// There is more of everything than a kernel takes at once.
+// Every row is wider than the cells that a kernel takes at once.
 TEST_P(Hostile, SameBitsOnWideGrids) {
   const auto& [law, name] = GetParam();
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -69,7 +69,7 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
   }
 }
 
-// The tile row is so tall that a sum over it would overflow 32 bits: everything is pushed up.
+// The tile row is so tall that a sum over it would overflow 32 bits, as everything is pushed up.
 TEST(Hostile, BooksOfTallTiles) {
   Parameters parameters = paper_showcase();
   parameters.heat.enabled = true;

@@ -1,6 +1,6 @@
-// Every committed scene, every implementation, threads, tile sizes, asleep and awake: the digests of the
-// reference, step by step. Twice: from the scene's start, and from the middle of its melt, where
-// everything moves.
+// Every committed scene gives the digests of the reference, step by step. This holds for every
+// implementation, for threads and tile sizes, asleep and awake. Each scene runs twice: from its start, and
+// from the middle of its melt, where everything moves.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct Case {
   step::Tuning tuning;
 };
 
-// Each instruction set; and each way to work with the fastest.
+// Returns each instruction set, and each way to work with the fastest one.
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& name : fast_implementations()) all.push_back({name, {.threads = 1}});

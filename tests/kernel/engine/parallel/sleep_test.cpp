@@ -1,6 +1,6 @@
-// Calm worlds, in which nearly everything sleeps and small causes wake it: a vent or a drain that opens, heat
-// that arrives, light that moves, a wall that melts, liquid that falls or is pushed up beyond the tiles that
-// are awake. The bits must be the reference's after every phase, with the smallest tiles.
+// In calm worlds nearly everything sleeps, and small causes wake it. A vent or a drain opens, heat arrives,
+// light moves, a wall melts, or liquid falls or is pushed up beyond the tiles that are awake. The bits must
+// be the reference's after every phase, with the smallest tiles.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -77,7 +77,7 @@ Parameters calm_parameters(Random& random, rule::Law law, Grid g) {
   return p;
 }
 
-// A few bodies in much air, all of about one heat.
+// Makes a few bodies in much air, all of about one heat.
 Volume calm_volume(Random& random, const Parameters& p, Grid g) {
   Volume v(g);
   const bool floor = random.one_in(2);

@@ -1,5 +1,5 @@
-// What wakes a sleeping tile beyond the tiles that changed: one cause at a time, in worlds where nothing else
-// moves. The bits must be the reference's after every phase, with the smallest tiles.
+// Changes in one tile can wake a sleeping tile beyond it. Each test takes one cause, in worlds where nothing
+// else moves. The bits must be the reference's after every phase, with the smallest tiles.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ Parameters with_drops(rule::Law law) {
   return p;
 }
 
-// A drop hangs in free air by one solid, above or beside it; the solid melts.
+// A drop hangs in free air by one solid, above or beside it. Then the solid melts.
 TEST(Sleep, WhatHungFromAMeltingSolidFalls) {
   constexpr int kPlaces[5][3] = {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
@@ -49,8 +49,8 @@ TEST(Sleep, WhatHungFromAMeltingSolidFalls) {
     }
 }
 
-// Paper's law: a film clings to a solid that melts and stays where it is. It falls one step later, when
-// nothing else moves.
+// Under the paper's law, a film clings to a solid that melts and stays where it is. The film falls one step
+// later, when nothing else moves.
 TEST(Sleep, WhatClungToAMeltedSolidFalls) {
   constexpr int kSides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   for (const bool drips : {true, false})
@@ -81,8 +81,8 @@ TEST(Sleep, WhatClungToAMeltedSolidFalls) {
       }
 }
 
-// The same where a step melts twice or not at all, or nothing falls after it: sides go with the gravity that
-// follows, or with another melt.
+// Here a step melts twice or not at all, or nothing falls after it. Sides last until the gravity that
+// follows, or until another melt.
 TEST(Sleep, SidesGoWithTheNextGravityOrMelt) {
   Parameters p = with_drops(rule::Law::paper);
   p.heat.air_exchange = 20000;
@@ -116,7 +116,7 @@ TEST(Sleep, SidesGoWithTheNextGravityOrMelt) {
   }
 }
 
-// A shaft of full cells: its lowest cell is drained, then fed. All of it moves in one step.
+// The lowest cell of a shaft of full cells is drained, then fed. The whole shaft moves in one step.
 TEST(Sleep, ShaftsMoveWhole) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     const Grid grid{3, 30, 3};
@@ -151,8 +151,8 @@ TEST(Sleep, WhatAFallBaresWarms) {
   ASSERT_TRUE(same_asleep(p, start, 12));
 }
 
-// The wall that a drop clings to melts: the drop falls, and the one on its other side may spread where
-// it was.
+// The wall that a drop clings to melts, and the drop falls. The drop on the wall's other side may then spread
+// to its place.
 TEST(Sleep, WhatAFallBaresIsSpreadTo) {
   Parameters p = with_drops(rule::Law::paper);
   p.flow.paper.neighbours = 4;
@@ -167,7 +167,8 @@ TEST(Sleep, WhatAFallBaresIsSpreadTo) {
   for (p.seed = 0; p.seed < 8; ++p.seed) ASSERT_TRUE(same_asleep(p, start, 18));
 }
 
-// Warm liquid would give more than the step between two cells; as it cools, it gives less, and may.
+// Warm liquid would give more than the step between two cells, so it gives nothing. As it cools, it would
+// give less, and may flow.
 TEST(Sleep, WhatCoolsMayFlow) {
   const Grid grid{4, 3, 3};
   Parameters p = paper_showcase();
@@ -190,7 +191,7 @@ TEST(Sleep, WhatCoolsMayFlow) {
   ASSERT_TRUE(same_asleep(p, start, 20));
 }
 
-// Heat that a vent brings to one cell crosses three rows in one step: over an edge and a corner, over a
+// A vent brings heat to one cell. It crosses three rows in one step: over an edge and a corner, or over a
 // corner and by convection.
 TEST(Sleep, HeatGoesOnInTheSameStep) {
   for (const bool edge : {true, false}) {
@@ -242,8 +243,8 @@ TEST(Sleep, AWallGivesWhenItsTimeComes) {
   }
 }
 
-// One drop beside the border of two words: gifts that cross it, each direction alone; what is hot goes on
-// beyond it.
+// One drop lies beside the border of two words. Its gifts cross the border, each direction alone, and its
+// heat goes on beyond it.
 TEST(Sleep, ADropGivesAcrossWords) {
   for (int seed = 0; seed < 150; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -261,7 +262,7 @@ TEST(Sleep, ADropGivesAcrossWords) {
   }
 }
 
-// The same beside walls of the next word, in a word that has none.
+// The drop now lies beside walls of the next word, in a word that has none.
 TEST(Sleep, ADropStopsAtTheNextWord) {
   for (int seed = 0; seed < 150; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -277,7 +278,7 @@ TEST(Sleep, ADropStopsAtTheNextWord) {
   }
 }
 
-// Viscous law: a run that comes to rest may reach liquid above it in the next step.
+// Under the viscous law, a run that comes to rest may reach liquid above it in the next step.
 TEST(Sleep, ARunGrowsAfterItRests) {
   Volume start({3, 8, 3});
   fill_inert(start, whole(start.grid));
@@ -289,7 +290,7 @@ TEST(Sleep, ARunGrowsAfterItRests) {
   ASSERT_TRUE(same_asleep(viscous(0.1), start, 6));
 }
 
-// Viscous law: liquid hangs full beside a run; as it is drained, there is room for more.
+// Under the viscous law, liquid hangs full beside a run. As it is drained, there is room for more.
 TEST(Sleep, ADrainMakesRoom) {
   Parameters p = viscous(0.5);
   p.flow.fall.hang = 65535;
@@ -305,8 +306,8 @@ TEST(Sleep, ADrainMakesRoom) {
   ASSERT_TRUE(same_asleep(p, start, 12));
 }
 
-// Viscous law: liquid rests by its yield, level with the upper faces of a floating slab, which melts one tile
-// below: the cells on it show no ground any more, though nothing else in their tile has changed.
+// Under the viscous law, liquid rests by its yield, level with the upper faces of a floating slab. The slab
+// melts one tile below. The cells on it then show no ground, though nothing else in their tile has changed.
 TEST(Sleep, GroundThatMeltsIsShownNoMore) {
   Parameters p = viscous(0.3, 0.125);
   p.heat = with_drops(rule::Law::viscous).heat;
@@ -330,8 +331,8 @@ TEST(Sleep, GroundThatMeltsIsShownNoMore) {
   }
 }
 
-// A dam breaks behind a wall, so that steps need fewer sub-steps. Beside it a pool sleeps, and shows what is
-// right for as many sub-steps as before. Then a vent makes a part of it give across words.
+// A dam breaks behind a wall, so that steps need fewer sub-steps. Beside it a pool sleeps, and shows values
+// that fit the former number of sub-steps. Then a vent makes a part of it give across words.
 TEST(Sleep, SleepersShowWhatFitsTheSubsteps) {
   Parameters p = viscous(0.3);
   p.flow.viscous.substeps = 0;

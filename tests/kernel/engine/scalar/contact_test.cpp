@@ -1,4 +1,4 @@
-// What a flow touches: the corner it passes, the ground under its receiver, the bed beside it.
+// A flow depends on what it touches: the corner it passes, the ground under its receiver, the bed beside it.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace {
 
 using namespace worlds;
 
-// One blocked cell does not bar a diagonal: it is reached in the very first step, not by way of the
-// other side.
+// One blocked cell does not bar a diagonal. The diagonal cell is reached in the very first step, not by way
+// of the other side.
 TEST(Contact, ADiagonalPassesOneBlockedCell) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     int reached = 0;
@@ -29,7 +29,8 @@ TEST(Contact, ADiagonalPassesOneBlockedCell) {
   }
 }
 
-// Friction is that of the receiver's own ground: what arrives on a floor that takes everything has no energy.
+// Friction is that of the receiver's own ground: liquid that arrives on a floor that takes everything has no
+// energy.
 TEST(Contact, FrictionIsThatOfTheReceiversGround) {
   for (const bool floor_takes_all : {false, true}) {
     std::int64_t arrived = 0, energy = 0;
@@ -50,7 +51,7 @@ TEST(Contact, FrictionIsThatOfTheReceiversGround) {
   }
 }
 
-// A dry bed that stands as high as the liquid beside it takes nothing; a lower one does.
+// A dry bed that stands as high as the liquid beside it takes nothing. A lower one does.
 TEST(Contact, ADryBedHasItsOwnHeight) {
   for (const int rise : {0, 1024}) {
     Volume v(Grid{2, 3, 1});
@@ -63,12 +64,12 @@ TEST(Contact, ADryBedHasItsOwnHeight) {
   }
 }
 
-// The step in which a film that touches one solid falls; the solid melts in step 0.
+// Returns the step in which a film that touches one solid falls. The solid melts in step 0.
 int falls_in(rule::Law law, const rule::Fall& fall, int dx, int dy, int dz) {
   Volume v(Grid{5, 7, 5});
   put(v, 2, 3, 2, 900, 0, 20000);
   put_solid(v, 2 + dx, 3 + dy, 2 + dz, kOne, 40000);
-  if (dy == 0) put_inert(v, 2 + dx, 2, 2 + dz);  // what has melted stays
+  if (dy == 0) put_inert(v, 2 + dx, 2, 2 + dz);  // the molten cell stays there
   Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0);
   p.flow.fall = fall;
   p.flow.paper.threshold = 65535;
@@ -85,8 +86,8 @@ int falls_in(rule::Law law, const rule::Fall& fall, int dx, int dy, int dz) {
   return -1;
 }
 
-// Under the paper's law a side that melts still holds in that step; what is above, and all under the viscous
-// law, holds no more.
+// Under the paper's law a side that melts still holds in that step. A solid above does not, and under the
+// viscous law no molten solid does.
 TEST(Contact, ASideHoldsInTheStepInWhichItMelts) {
   const rule::Fall drip{.factor = 65536, .wall_factor = 65536, .minimum = 0, .hang = 1024};
   const rule::Fall adhesion{.factor = 65536, .wall_factor = 0, .minimum = 0, .hang = 0};
@@ -100,7 +101,7 @@ TEST(Contact, ASideHoldsInTheStepInWhichItMelts) {
   EXPECT_EQ(falls_in(rule::Law::viscous, drip, 0, 1, 0), 0);
 }
 
-// Phases that run apart: melting is forgotten when gravity has run, and by another melt.
+// Phases run apart. A melt is forgotten when gravity has run, and by another melt.
 TEST(Contact, OnlyTheLastMeltCounts) {
   Parameters p = paper_showcase();
   p.flow.fall.hang = 1024;

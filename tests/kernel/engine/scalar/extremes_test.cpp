@@ -1,4 +1,4 @@
-// Everything at its maximum, for long.
+// Everything is at its maximum, for long.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ void expect_sound(const run::Simulation& s) {
   ASSERT_TRUE(s.drift().none()) << "step " << s.steps_done();
 }
 
-// A closed container, filled to the last unit, stays exactly as it is: nothing can move.
+// A closed container, filled to the last unit, stays exactly as it is, because nothing can move.
 TEST(FullBox, StaysAsItIs) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (const bool downhill : {false, true}) {
@@ -34,7 +34,7 @@ TEST(FullBox, StaysAsItIs) {
     }
 }
 
-// With one cell less it is over-filled everywhere, moves for ever, and never loses a unit.
+// A box with one cell less is over-filled everywhere, moves for ever, and never loses a unit.
 TEST(FullBox, WithALittleRoomNeverLosesAUnit) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
@@ -55,8 +55,9 @@ TEST(FullBox, WithALittleRoomNeverLosesAUnit) {
     }
 }
 
-// Temperatures at both ends and one unit inside, all neighbours at the bound of docs/proofs.md: 0..65535 is
-// never left (a wrap would be a jump from cold to hot), and conduction creates no new extreme.
+// Temperatures lie at both ends and one unit inside, and all neighbours are at the bound of docs/proofs.md.
+// Heat never leaves 0..65535 (a wrap would be a jump from cold to hot), and conduction creates no new
+// extreme.
 TEST(Heat, StaysBetweenItsExtremes) {
   for (const int neighbours : {6, 18, 26})
     for (const auto& [cold_end, hot_end] :
@@ -72,7 +73,7 @@ TEST(Heat, StaysBetweenItsExtremes) {
         p.heat.weight_corner = 3640;
         p.material.melting_point = 65535;
         Volume v(Grid{7, 7, 7});
-        // Checkerboard, lone cells, and noise.
+        // The patterns are a checkerboard, lone cells, and noise.
         for_each(whole(v.grid), [&](int x, int y, int z) {
           const bool hot = seed == 0   ? (x + y + z) % 2 == 0
                            : seed == 1 ? x % 3 == 1 && y % 3 == 1 && z % 3 == 1
@@ -94,7 +95,7 @@ TEST(Heat, StaysBetweenItsExtremes) {
       }
 }
 
-// 10923 does leave the range: with 16 bits, the coldest cell becomes the hottest.
+// A weight of 10923 does leave the range: with 16 bits, the coldest cell becomes the hottest.
 TEST(Heat, PastTheBoundItWraps) {
   for (const std::uint16_t weight : {std::uint16_t{10922}, std::uint16_t{10923}}) {
     Parameters p = paper_showcase();
@@ -113,7 +114,7 @@ TEST(Heat, PastTheBoundItWraps) {
   }
 }
 
-// Convection, hot and cold air, latent heat, all at once and at the bound, in liquid.
+// Convection, hot and cold air and latent heat act in liquid, all at once and at the bound.
 TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
   for (const int latent : {0, 20000})
     for (const auto& [cold_end, hot_end] : {std::pair{0, 65535}, {1, 65534}}) {

@@ -1,4 +1,4 @@
-// States and parameters that a scene may have, though no one would write it: every bound at once.
+// These states and parameters are allowed in a scene, though no one would write them: every bound at once.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ inline void hostile_paper_law(Random& random, rule::PaperLaw& law) {
   law.neighbours = random.any({4, 8});
   law.threshold = static_cast<std::uint16_t>(random.any({0, 1, 1434, 65535}));
   law.use_table = law.neighbours == 4 && random.one_in(2);
-  for (auto& row : law.table) {  // sums to at most 65536
+  for (auto& row : law.table) {  // each row sums to at most 65536
     std::int32_t left = random.any({65536, random.below(65537)});
     for (std::uint16_t& share : row)
       left -= share = static_cast<std::uint16_t>(random.below(std::min(left, 65535) + 1));
@@ -132,8 +132,8 @@ inline Volume hostile_volume(Random& random, const Parameters& p, Grid g) {
   return v;
 }
 
-// A column of liquid whose settling keeps the order of heat, or just does not: films and heaps in layers, and
-// excesses at both ends of what keeps the order, and one beyond.
+// Makes a column of liquid whose settling keeps the order of heat, or just does not. It has films and heaps
+// in layers. Its excesses lie at both ends of the range that keeps the order, and one beyond.
 inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
   const int kind = random.below(6), beyond = random.below(2);
   const int height = kind == 3 ? std::min(31, v.grid.y) : random.between(1, v.grid.y);
@@ -144,7 +144,7 @@ inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
     if (kind == 0) a = random.between(2048, 4096);
     if (kind == 1) a = random.between(2048, 6200);
     if (kind == 2) a = random.one_in(3) ? 4096 : random.between(1, 12000);
-    if (kind == 3) a = y == 0 ? 2049 - beyond : 2048;  // 15 cells too little below the 30th face
+    if (kind == 3) a = y == 0 ? 2049 - beyond : 2048;  // below the 30th face 15 cells are missing
     if (kind == 4) a = y == 0 ? 61440 : y == 1 ? 8191 + beyond : 0;
     if (kind == 5) a = 4096;
     if (!one_heat) heat = random.one_in(2) ? random.below(65536) : std::min(65535, heat + random.below(2));
@@ -152,8 +152,8 @@ inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
   }
 }
 
-// Takes matter and obstacles out of half of all pieces of 16 cells along x: vectors that hold nothing lie
-// beside, above and in front of others.
+// Takes matter and obstacles out of half of all pieces of 16 cells along x. Then empty vectors lie beside,
+// above and in front of others.
 inline void thin_out(Random& random, Volume& v) {
   constexpr int kPiece = 16;
   for (int z = 0; z < v.grid.z; ++z)

@@ -1,5 +1,5 @@
-// Whatever a scene may hold: after every phase the invariants hold, the books balance, and only cells near
-// matter have changed. Grids of 1, 2, 63, 64 and 65 cells along each axis in turn.
+// For anything that a scene may hold, the invariants hold and the books balance after every phase, and only
+// cells near matter change. The grids have 1, 2, 63, 64 and 65 cells along each axis in turn.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct Shape {
 
 class Hostile : public testing::TestWithParam<Shape> {};
 
-// Cells that a phase may change: those that can touch matter within one cell, in their column where the phase
-// scans along gravity. Written from the definition, cell by cell.
+// Marks the cells that a phase may change: those that can touch matter within one cell. If the phase scans
+// along gravity, they are whole columns. It is written from the definition, cell by cell.
 std::vector<bool> near_matter(const Volume& v, bool columns) {
   const Grid g = v.grid;
   std::vector<bool> near(g.cells());

@@ -1,4 +1,4 @@
-// Drift 0 after a million steps of a scene that never rests. Slow: half an hour.
+// The drift is 0 after a million steps of a scene that never rests. The test is slow: half an hour.
 #include <gtest/gtest.h>
 
 #include "tests/kernel/engine/scalar/moving_scene.h"

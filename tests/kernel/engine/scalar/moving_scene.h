@@ -1,5 +1,5 @@
-// A scene that never rests: a vent pours hot liquid into a cube of 24, a drain at the floor takes it, an oven
-// melts a block slowly.
+// This scene never rests. A vent pours hot liquid into a cube of 24, a drain at the floor takes it, and an
+// oven melts a block slowly.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ inline run::Simulation moving_scene(rule::Law law) {
   return simulate(p, v);
 }
 
-// Runs n steps; the books balance, the invariants hold, and something still moves at the end.
+// Runs n steps, and checks that the books balance, the invariants hold, and something still moves at the end.
 inline std::string keeps_its_books(run::Simulation& s, int n) {
   for (int i = 0; i < n; ++i) {
     s.step();

@@ -1,4 +1,4 @@
-// Books over a long run (the million steps are in million_test.cpp).
+// The books balance over a long run (the million steps are in million_test.cpp).
 #include <gtest/gtest.h>
 
 #include "tests/kernel/engine/scalar/moving_scene.h"

@@ -1,4 +1,4 @@
-// Which cells may exchange at all, phase by phase, on worlds of a few cells.
+// Worlds of a few cells show, phase by phase, the neighbours that may exchange at all.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -16,7 +16,8 @@ void run(run::Simulation& s, std::initializer_list<Phase> phases) {
   for (const Phase phase : phases) s.run_phase(phase);
 }
 
-// A diagonal between two blocked cells is barred, solid or inert; between one blocked and one open it is not.
+// A diagonal between two blocked cells is barred, solid or inert. Between a blocked and an open one it is
+// not.
 TEST(Diagonal, IsBarredBetweenTwoBlockedCells) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
     for (int blocked = 0; blocked < 4; ++blocked) {
@@ -30,7 +31,7 @@ TEST(Diagonal, IsBarredBetweenTwoBlockedCells) {
     }
 }
 
-// Viscous: what is in a run waits for the next settling; only what is outside falls.
+// Under the viscous law, cells in a run wait for the next settling. Only cells outside runs fall.
 TEST(Run, CellsOfARunDoNotFall) {
   Volume v(Grid{3, 8, 3});
   fill(v, {1, 0, 1, 2, 4, 2}, kOne);
@@ -44,7 +45,8 @@ TEST(Run, CellsOfARunDoNotFall) {
   EXPECT_EQ(amount_at(s, 0, 4, 0), 700);
 }
 
-// Viscous: a cell that settling emptied is no part of the run: as if it had never held anything.
+// Under the viscous law, a cell that settling emptied is no part of the run, as if it had never held
+// anything.
 TEST(Run, EmptiedCellsLeaveIt) {
   Volume merged(Grid{2, 8, 1}), split = merged;
   fill(merged, {0, 0, 0, 1, 6, 1}, kOne);
@@ -59,7 +61,8 @@ TEST(Run, EmptiedCellsLeaveIt) {
   EXPECT_GT(amount_at(one, 1, 1, 0), 0);
 }
 
-// Viscous: the free cell above a run shows that run's head, so nearly level columns exchange next to nothing.
+// Under the viscous law, the free cell above a run shows that run's head. So nearly level columns exchange
+// next to nothing.
 TEST(Run, TheCellAboveShowsItsHead) {
   Volume v(Grid{2, 6, 1});
   fill(v, {0, 0, 0, 2, 3, 1}, kOne);
@@ -69,7 +72,7 @@ TEST(Run, TheCellAboveShowsItsHead) {
   EXPECT_LE(80 - amount_at(s, 1, 3, 0), 1);
 }
 
-// Viscous: a bed offset raises or lowers the head of what stands on it.
+// Under the viscous law, a bed offset raises or lowers the head of the liquid that stands on it.
 TEST(Bed, OffsetsDriveAFlow) {
   for (const int offset : {2048, 4095, 0}) {
     Volume v(Grid{2, 4, 1});
@@ -92,7 +95,7 @@ TEST(Bed, OffsetsDriveAFlow) {
   }
 }
 
-// Paper: with `support` nothing spreads in the air; without, it does.
+// Under the paper's law, nothing spreads in the air if `support` is on. Otherwise it does.
 TEST(Support, OnlyWhatStandsSpreads) {
   for (const bool support : {true, false}) {
     Parameters p = paper_showcase();
@@ -105,7 +108,7 @@ TEST(Support, OnlyWhatStandsSpreads) {
   }
 }
 
-// A full column under a lid: neither law moves anything, and nothing rises through the lid.
+// A full column stands under a lid. Neither law moves anything, and nothing rises through the lid.
 TEST(Lid, HoldsAFullColumn) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     Volume v(Grid{3, 8, 3});

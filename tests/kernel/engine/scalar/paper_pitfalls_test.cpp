@@ -1,4 +1,4 @@
-// What went wrong in prototypes of the paper's law, each with its number (under the showcase parameters).
+// Prototypes of the paper's law had these errors. Each has its number (under the showcase parameters).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double run_and_watch(run::Simulation& s, int n) {
   return largest / 4096.0;
 }
 
-// Starved liquid (no energy) pours on a floor. Measured: with slump 1.03 of 16 and a heap of slope 1/4;
-// without, one tower to the ceiling, 16 of 16 in every cell.
+// Starved liquid (no energy) pours on a floor. With slump, the largest amount measured is 1.03 of 16, in a
+// heap of slope 1/4. Without it, one tower reaches the ceiling, with 16 of 16 in every cell.
 TEST(Pitfall, TowersOfStarvedLiquid) {
   for (const bool slump : {true, false}) {
     Parameters p = paper_showcase();
@@ -47,13 +47,13 @@ TEST(Pitfall, TowersOfStarvedLiquid) {
   }
 }
 
-// |a4 - 1| of heaps at rest, measured with eight seeds: drops 2.5 % on average, at most 3.3 %; a starved pile
-// 10 %. (It is the diagonal's margin that decides: 8/8 gives 0.3 % and -8 %, 9/8 0.4 % and 0.3 %, 11/8 2.5 %
-// and 10 %.)
+// |a4 - 1| of heaps at rest was measured with eight seeds. Drops have 2.5 % on average and at most 3.3 %, and
+// a starved pile has 10 %. The diagonal's margin decides: 8/8 gives 0.3 % and -8 %, 9/8 0.4 % and 0.3 %, 11/8
+// 2.5 % and 10 %.
 constexpr double kRoundDrop = 0.012, kRoundPile = 0.02;
 
-// Measured with eight seeds: at rest after 560 to 880 steps; 3 to 14 cells of dust among 1500; largest
-// amount 1.45.
+// Measurements with eight seeds found rest after 560 to 880 steps, 3 to 14 cells of dust among 1500, and a
+// largest amount of 1.45.
 TEST(Drop, ComesToRestWithoutDustAndRound) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Parameters p = paper_showcase();
@@ -83,7 +83,7 @@ TEST(Drop, APileOfStarvedLiquidIsRound) {
   RecordProperty("anisotropy", std::to_string(spread.anisotropy));
 }
 
-// A pool that keeps all its energy (alpha 1, threshold 0), from a rough start.
+// Makes a pool that keeps all its energy (alpha 1, threshold 0), from a rough start.
 run::Simulation hot_pool(bool downhill, int margin, double depth) {
   Parameters p = paper_showcase();
   p.flow.paper.threshold = p.flow.paper.slump = 0;
@@ -99,7 +99,7 @@ run::Simulation hot_pool(bool downhill, int margin, double depth) {
   return simulate(p, v);
 }
 
-// Measured: 0.018 and 0.017 cells; the literal reading (downhill off) 0.12 and 0.26.
+// The roughness measured is 0.018 and 0.017 cells. The literal reading (downhill off) gives 0.12 and 0.26.
 TEST(Pitfall, CheckerboardInAHotPool) {
   for (const double depth : {0.5, 1.5}) {
     run::Simulation s = hot_pool(true, 256, depth);
@@ -126,9 +126,11 @@ TEST(Pitfall, HotPoolNeverQuiet) {
   }
 }
 
-// Liquid oozes from the underside of a ceiling. Falling cells under 1/16, over all steps: none with drip.
-// Disabled: "p is air" by the masks of the phase's begin lets a thread of mist follow the first drop for ever
-// (measured 4725, without drip 5355). With the present amount of p instead of its mask: 0, and 144 drops.
+// Liquid oozes from the underside of a ceiling. Falling cells under 1/16 are counted over all steps: with
+// drip there are none.
+// An older form read "p is air" by the masks of the phase's begin. It let a thread of mist follow the first
+// drop for ever (measured 4725, without drip 5355). The present amount of p, instead of its mask, gives 0,
+// and 144 drops.
 TEST(Pitfall, OverhangRainsMist) {
   for (const bool drip : {true, false}) {
     Parameters p = paper_showcase();
@@ -156,7 +158,7 @@ TEST(Pitfall, OverhangRainsMist) {
   }
 }
 
-// The stem of a goblet melts through: the bowl stays where it is, and is counted.
+// The stem of a goblet melts through. The bowl stays where it is, and is counted.
 TEST(Pitfall, FloatingBowl) {
   Parameters p = paper_showcase();
   p.heat.enabled = true;
@@ -169,7 +171,7 @@ TEST(Pitfall, FloatingBowl) {
   EXPECT_EQ(state::count_detached(s.volume()), 98 + 2);
 }
 
-// The paper's law has no hydrostatics: a U-tube stays as it is, 21 against 3 (the viscous law levels it).
+// The paper's law has no hydrostatics: a U-tube stays as it is, 21 against 3. The viscous law levels it.
 TEST(Pitfall, UTubeDoesNotLevel) {
   Volume v = u_tube();
   for_each(whole(v.grid), [&](int x, int y, int z) {

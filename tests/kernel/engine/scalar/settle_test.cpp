@@ -1,4 +1,4 @@
-// Where heat goes when a run settles (docs/automaton.md, section 10). Expected values are worked out by hand.
+// When a run settles, its heat moves (docs/automaton.md, section 10). Expected values are worked out by hand.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -42,7 +42,7 @@ struct Settled {
   state::Sum rounded;
 };
 
-// Settles a column of the grid's height at step s. D(0) = 0, D(1) = 32768, D(3) = 49152.
+// Settles a column of the grid's height at step s. The dithers are D(0) = 0, D(1) = 32768, D(3) = 49152.
 Settled settle(const Column& cells, int height, std::uint32_t s = 0) {
   Volume v = column_of(cells, height);
   state::Ledger ledger = state::Ledger::open(v);
@@ -71,25 +71,26 @@ TEST(Settle, WhatIsTooMuchMovesUpAndMixesWhereItArrives) {
 }
 
 TEST(Settle, UpwardFlowsFollowEachOtherFromTheBottom) {
-  // 8192 at 1000 to 2048 at 5000: 1800. 6144 of these to 1024 at 9000: 2828.57. 3072 of these into air.
+  // 8192 at 1000 come to 2048 at 5000: 1800. 6144 of these come to 1024 at 9000: 2828.57. 3072 of these go
+  // into air.
   EXPECT_EQ(settle({{12288, 1000}, {2048, 5000}, {1024, 9000}}, 5).cells,
             (Column{{4096, 1000}, {4096, 1800}, {4096, 2828}, {3072, 2828}, {0, 0}}));
 }
 
 TEST(Settle, DownwardFlowsFollowEachOtherFromTheTop) {
-  // 2048 at 5000 to 4096 at 3000: 3666.67. 2048 of these to 2048 at 1000: 2333.
+  // 2048 at 5000 come to 4096 at 3000: 3666.67. 2048 of these come to 2048 at 1000: 2333.
   EXPECT_EQ(settle({{2048, 1000}, {4096, 3000}, {4096, 5000}}, 3).cells,
             (Column{{4096, 2333}, {4096, 3666}, {2048, 5000}}));
 }
 
 TEST(Settle, FlowsUpBelowAndDownAboveInOneRun) {
-  // 2048 at 1000 up to 2048 at 2000: 1500. 2048 at 7000 down to 2048 at 3000: 5000.
+  // 2048 at 1000 go up to 2048 at 2000: 1500. 2048 at 7000 go down to 2048 at 3000: 5000.
   EXPECT_EQ(settle({{6144, 1000}, {2048, 2000}, {2048, 3000}, {4096, 7000}}, 4).cells,
             (Column{{4096, 1000}, {4096, 1500}, {4096, 5000}, {2048, 7000}}));
 }
 
-// 1024 at 1001 up to 2048 at 1000: 1000.33. Then 1024 at 1003 down to these 3072 at 1000: 1000.75. The other
-// way round it would be 1001.
+// 1024 at 1001 go up to 2048 at 1000: 1000.33. Then 1024 at 1003 go down to these 3072 at 1000: 1000.75. The
+// other way round it would be 1001.
 TEST(Settle, UpComesBeforeDownIntoOneCell) {
   EXPECT_EQ(settle({{5120, 1001}, {2048, 1000}, {4096, 1003}}, 3).cells,
             (Column{{4096, 1001}, {4096, 1000}, {3072, 1003}}));
@@ -100,7 +101,7 @@ TEST(Settle, ATopThatEmptiesLeavesTheRun) {
 }
 
 TEST(Settle, UnderPressureARunMixes) {
-  // (8192 x 1000 + 4096 x 3000) / 12288 = 1666.67
+  // The mean is (8192 x 1000 + 4096 x 3000) / 12288 = 1666.67.
   EXPECT_EQ(settle({{8192, 1000}, {4096, 3000}}, 2).cells, (Column{{4096, 1666}, {8192, 1666}}));
   EXPECT_EQ(settle({{8192, 1000}, {4096, 3000}}, 3).cells, (Column{{4096, 1000}, {4096, 2000}, {4096, 2000}}))
       << "a lid higher";
@@ -113,7 +114,7 @@ TEST(Settle, AnExcessOfMoreThanFifteenCellsMixes) {
   EXPECT_EQ(most.cells[0], (Held{4096, 1000}));
   for (std::size_t y = 1; y < 16; ++y) EXPECT_EQ(most.cells[y], (Held{4096, 1124})) << y;
   EXPECT_EQ(most.cells[16], (Held{4095, 1124}));
-  // (61440 x 1000 + 8192 x 2000) / 69632 = 1117.65
+  // The mean is (61440 x 1000 + 8192 x 2000) / 69632 = 1117.65.
   const Settled more = settle({{61440, 1000}, {8192, 2000}}, 20);
   for (std::size_t y = 0; y < 17; ++y) EXPECT_EQ(more.cells[y], (Held{4096, 1117})) << y;
   EXPECT_EQ(settle({{65535, 1000}}, 20).cells[15], (Held{4095, 1000})) << "the most that a cell may hold";
@@ -129,13 +130,13 @@ TEST(Settle, AShortageOfMoreThanFifteenCellsMixes) {
   for (std::size_t y = 1; y < 15; ++y) EXPECT_EQ(most.cells[y], (Held{4096, 2000})) << y;
   EXPECT_EQ(most.cells[15], (Held{2, 2000}));
   column[0].amount = 2048;
-  // 2000 - 2048 x 1000 / 61441 = 1966.67
+  // The mean is 2000 - 2048 x 1000 / 61441 = 1966.67.
   const Settled more = settle(column, 31);
   for (std::size_t y = 0; y < 15; ++y) EXPECT_EQ(more.cells[y], (Held{4096, 1966})) << y;
   EXPECT_EQ(more.cells[15], (Held{1, 1966}));
 }
 
-// What is beyond the bound above the highest face does not count: the last cell has none above it.
+// A shortage above the highest face does not count, as the last cell has no face above it.
 TEST(Settle, TheTopOfARunHasNoFace) {
   Column column(31, {2048, 2000});
   column[0] = {2049, 1000};
@@ -143,7 +144,7 @@ TEST(Settle, TheTopOfARunHasNoFace) {
   EXPECT_EQ(settle(column, 31).cells[0], (Held{4096, 1499}));
 }
 
-// Hot liquid above cold: one step of settling carries heat as far as liquid flows, not to the bottom.
+// Hot liquid lies above cold. One step of settling carries heat as far as liquid flows, not to the bottom.
 TEST(Settle, LayersStayLayers) {
   Random random(5);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -162,7 +163,7 @@ TEST(Settle, LayersStayLayers) {
   }
 }
 
-// Two cells of 2047 and 2048 have the mean 2047.5: entry 0 of the table, whatever the dither.
+// Two cells of 2047 and 2048 have the mean 2047.5. It takes entry 0 of the table, whatever the dither.
 TEST(Settle, MobilityGoesByTheMeanWithoutDither) {
   Parameters p = with_heat();
   p.flow.thermal_viscosity = true;

@@ -1,5 +1,5 @@
-// Drops on a plane against Huppert 1982 (quick; the gates with their long runs are elsewhere), and heat
-// carried with the flow.
+// Drops on a plane are compared with Huppert 1982 (quick; the gates with their long runs are elsewhere). Heat
+// is carried with the flow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 
 using namespace worlds;
 
-// The similarity solution of constant volume: h = h0 (1 - (r / rn)^2)^(1/3), rn = 0.89391 (kappa V^3 /
+// The similarity solution of constant volume is h = h0 (1 - (r / rn)^2)^(1/3), rn = 0.89391 (kappa V^3 /
 // 3)^(1/8) t^(1/8).
 struct Huppert {
-  double kappa, volume, time;  // of the profile that the run starts from
+  double kappa, volume, time;  // for the profile that the run starts from
   double front(double t) const { return 0.89391 * std::pow(kappa * volume * volume * volume / 3 * t, 0.125); }
   double rms(double t) const { return front(t) * std::sqrt(3.0 / 7); }
 };
@@ -34,7 +34,8 @@ Huppert put_profile(Volume& v, double kappa, double front, double depth) {
   return {kappa, volume, std::pow(front / at_one.front(1), 8)};
 }
 
-// From depth 3 to 1.5, 16 times the time. Measured: exponent 0.126, radius +0.8 %, |a4 - 1| 0.6 and 0.14 %.
+// The depth falls from 3 to 1.5 in 16 times the time. Measured are exponent 0.126, radius +0.8 %, and |a4 -
+// 1| 0.6 and 0.14 %.
 TEST(Huppert, RadiusExponentAndRoundness) {
   Volume v(Grid{45, 5, 45});
   const Huppert theory = put_profile(v, 0.02, 10, 3);
@@ -56,7 +57,8 @@ TEST(Huppert, RadiusExponentAndRoundness) {
   EXPECT_LE(late.anisotropy, 0.005);
 }
 
-// Conduction off: heat moves with the liquid only. The sum of A h changes by `rounded` alone, and by little.
+// Conduction is off, so heat moves with the liquid only. The sum of A h changes by `rounded` alone, and by
+// little.
 TEST(HeatWithFlow, IsCarriedExactly) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.05);

@@ -1,4 +1,4 @@
-// What went wrong in prototypes of the viscous law, each with its number.
+// Prototypes of the viscous law had these errors, each with its number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using namespace worlds;
 using step::Phase;
 
-// Measured: at rest after 3150 steps at 11.48 and 11.46 of 12; the tunnel holds the missing half cells.
+// Measurements found rest after 3150 steps at 11.48 and 11.46 of 12. The tunnel holds the missing half cells.
 TEST(UTube, Levels) {
   run::Simulation s = simulate(viscous(0.02, 0.002), u_tube());
   steps(s, 3300);
@@ -25,8 +25,8 @@ TEST(UTube, Levels) {
   RecordProperty("levels", std::to_string(h(2, 2)) + " " + std::to_string(h(8, 2)));
 }
 
-// Truncation froze films (their radius lagged by 16 to 22 %). Measured growth 1.08 per doubling of time,
-// where t^(1/8) gives 1.09.
+// Truncation froze films (their radius lagged by 16 to 22 %). The growth measured now is 1.08 per doubling of
+// time, where t^(1/8) gives 1.09.
 TEST(Film, GoesOnSpreading) {
   Volume v(Grid{49, 3, 49});
   put_disc(v, 8, 0.5);
@@ -40,7 +40,7 @@ TEST(Film, GoesOnSpreading) {
   EXPECT_GT(radius[2], 1.06 * radius[1]);
 }
 
-// Measured, with a yield stress: rest, radius 7.09, |a4 - 1| 1.9 % (a film of 0.5 cells).
+// With a yield stress, measurements found rest at radius 7.09 and |a4 - 1| 1.9 % (a film of 0.5 cells).
 TEST(Film, ComesToRestWithYield) {
   Volume v(Grid{41, 3, 41});
   put_disc(v, 8, 0.5);
@@ -52,7 +52,7 @@ TEST(Film, ComesToRestWithYield) {
   EXPECT_GT(spread.radius, 6.5);
 }
 
-// The dead zone: heads that differ by one unit do not flow, so a level pool has exactly no flow.
+// This is the dead zone: heads that differ by one unit do not flow, so a level pool has exactly no flow.
 TEST(Pool, LevelToOneHeadUnitDoesNotMove) {
   for (const int depth : {1, 2, 5})
     for (const int part : {100, 2000, 4000}) {
@@ -91,7 +91,7 @@ TEST(Pool, ADeepOneComesToRest) {
   EXPECT_EQ(moving_steps(s, 100), 0);
 }
 
-// A block in free air falls one cell per step, whole: no smear, under both laws.
+// A block in free air falls whole, one cell per step, without smear, under both laws.
 TEST(Fall, OneCellPerStepWithoutSmear) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.02);
@@ -110,7 +110,7 @@ TEST(Fall, OneCellPerStepWithoutSmear) {
   }
 }
 
-// Liquid falling on a pool's film is not its height: the pool below it does not move yet.
+// Liquid falling on a pool's film does not count for its height, so the pool below does not move yet.
 TEST(Fall, AStreamDoesNotRaiseTheHead) {
   Volume v(Grid{11, 30, 11});
   fill(v, {0, 0, 0, 11, 1, 11}, kOne);
@@ -123,7 +123,7 @@ TEST(Fall, AStreamDoesNotRaiseTheHead) {
   EXPECT_EQ(s.volume().amount, v.amount);
 }
 
-// What falls fills a cell to ONE and no more, and cells in the air take no more sideways either.
+// Falling liquid fills a cell to ONE and no more, and cells in the air take no more sideways either.
 TEST(Fall, CellsInTheAirHoldAtMostOne) {
   Parameters p = viscous(0.1, 0.002);
   p.flow.fall.wall_factor = 8192;
@@ -149,7 +149,7 @@ TEST(Fall, CellsInTheAirHoldAtMostOne) {
   EXPECT_TRUE(s.drift().none());
 }
 
-// A funnel of one cell empties a basin of 243 cells but for a film. Measured: 27 left after 3000 steps.
+// A funnel of one cell empties a basin of 243 cells but for a film. 27 of them were left after 3000 steps.
 TEST(Funnel, OfOneCellEmpties) {
   Volume v(Grid{9, 14, 9});
   fill_inert(v, {0, 6, 0, 9, 7, 9});
@@ -171,8 +171,9 @@ TEST(Funnel, OfOneCellEmpties) {
   RecordProperty("left", std::to_string(above()));
 }
 
-// Measured 1.05, a drop and a pour: outside closed conduits nothing is squeezed. (A vent three cells high
-// must bring less than a cell per step in all, or its own cells fill up: no column falls faster.)
+// The largest amount measured is 1.05, in a drop and a pour: outside closed conduits nothing is squeezed. A
+// vent three cells high must bring less than a cell per step in all. Otherwise its own cells fill up, as no
+// column falls faster.
 TEST(OverFilling, StaysUnderFiveQuarters) {
   Volume v(Grid{41, 16, 41});
   put_ball(v, 6, false, 2);

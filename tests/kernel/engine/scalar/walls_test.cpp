@@ -1,4 +1,5 @@
-// Isothermal walls: what a cell takes from them, by hand, and what two of them do to a bar between them.
+// Isothermal walls are tested by hand: what a cell takes from them, and how two of them act on a bar between
+// them.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -28,8 +29,8 @@ std::int32_t heat_of(const run::Simulation& s, int x, int y, int z) {
   return s.volume().heat[s.volume().at(x, y, z)];
 }
 
-// An eighth of 40,000 at step 0, where D(0, 0, 3) = 0. The wall keeps what it has, and the ledger says who
-// gave: 5,000 to a cell of amount 3,000.
+// The cell takes an eighth of 40,000 at step 0, where D(0, 0, 3) = 0. The wall keeps its heat, and the ledger
+// names the wall as giver: 5,000 to a cell of amount 3,000.
 TEST(Walls, GiveAndKeep) {
   Volume v(Grid{2, 1, 1});
   put_wall(v, 0, 0, 0, 60000);
@@ -63,7 +64,7 @@ TEST(Walls, TakeAndDoNothingElse) {
 }
 
 // The pass is synchronous: a cell between a wall and another cell takes from both by its heat before. The
-// temperature of a wall is that of matter of its heat: 50,000 with 20,000 of latent heat above 25,000 is
+// temperature of a wall is that of matter of its heat. 50,000 with 20,000 of latent heat above 25,000 is
 // 30,000, and 40,000 is the melting point itself.
 TEST(Walls, SameInstantAsMatterAndSameTemperature) {
   Parameters p = conducting(8192);
@@ -81,7 +82,7 @@ TEST(Walls, SameInstantAsMatterAndSameTemperature) {
   }
 }
 
-// Over an edge with 18 neighbours, over a corner with 26: the weight is that of the distance.
+// Heat passes over an edge with 18 neighbours, and over a corner with 26. The weight is that of the distance.
 TEST(Walls, OverEdgesAndCorners) {
   for (const int neighbours : {6, 18, 26})
     for (const bool corner : {false, true}) {

@@ -1,4 +1,4 @@
-// How two volumes, two ledgers, or what changed and what was told of it, differ.
+// These functions compare two volumes, two ledgers, or the changes with those that were reported.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ inline std::string terms(const Books& books) {
   return terms(ledger);
 }
 
-// Tiles in which the volumes differ.
+// Returns the tiles in which the volumes differ.
 inline TileSet tiles_between(const View& view, const Volume& a, const Volume& b) {
   TileSet set(view, false);
   for_each(whole(a.grid), [&](int x, int y, int z) {

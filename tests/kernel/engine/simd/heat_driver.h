@@ -1,5 +1,5 @@
-// Runs the SIMD kernels of source, heat and melt over a volume: in chunks of slices whose order does not
-// matter, and only where something may happen. All scratch memory begins as garbage.
+// Runs the SIMD kernels of source, heat and melt over a volume. It takes chunks of slices whose order does
+// not matter, and only tiles where something may happen. All scratch memory begins as garbage.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ inline View view_of(state::Volume& v, int tile_shift) {
   return view;
 }
 
-// One bit per tile: [z][tile row].
+// A set of tiles has one bit per tile: [z][tile row].
 class TileSet {
  public:
   TileSet(const View& view, bool all)
@@ -89,7 +89,7 @@ class HeatDriver {
 
   const View& view() const { return v_; }
 
-  // `work`: where anything may happen before any of this phase has; grows as it happens.
+  // `work` marks the tiles where anything may happen before any of this phase has. It grows as it happens.
   void heat(const Step& step, TileSet& work, TileSet& changed, TileSet& restless, TileSet& hot,
             Books& books) {
     HeatFlux flux{row_.data(), front_.data()};
@@ -120,7 +120,7 @@ class HeatDriver {
     if (kernels_.conduct_faces)
       with_walls(kernels_.face_walls, [&] {
         pass([&](int z, bool first, OldHeat old, const HeatTiles& found) {
-          if (!first) old.below = heats(z - 1);  // it must not need what was saved
+          if (!first) old.below = heats(z - 1);  // it must not need the saved heats
           old.own = nullptr;
           kernels_.conduct_faces(v_, step, z, old, first ? nullptr : work.slice(z - 1), work.slice(z), flux,
                                  found, books);

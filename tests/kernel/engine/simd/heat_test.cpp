@@ -1,5 +1,5 @@
-// The SIMD kernels of source, heat and melt against the reference, phase by phase: every bit of every field
-// and every term of the ledgers; and against themselves awake.
+// The SIMD kernels of source, heat and melt agree with the reference, phase by phase, in every bit of every
+// field and every term of the ledgers. Asleep, they agree with themselves awake.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct World {
   Volume volume;
   std::uint32_t first = 0;  // step
   int steps = 0;
-  bool flows = false;  // by the reference, between the steps
+  bool flows = false;  // the reference runs the flow between the steps
 };
 
 // Returns the share of tiles that slept.
@@ -136,8 +136,8 @@ TEST_P(Heat, EveryStateAsTheReference) {
   check({200, 12, 7}, 10);
 }
 
-// A block of matter with few holes or none: tiles and words in which every pair counts, amounts of full cells
-// and others, heats far apart.
+// The block of matter has few holes or none. In its tiles and words every pair counts. It has amounts of full
+// cells and others, and heats far apart.
 TEST_P(Heat, DenseMatter) {
   Random random(12);
   for (int i = 0; i < 40; ++i) {
@@ -164,7 +164,8 @@ TEST_P(Heat, DenseMatter) {
   }
 }
 
-// Few bodies, of few temperatures, in a large room; weights so small that hardly a step moves a unit.
+// Makes few bodies, of few temperatures, in a large room. The weights are so small that hardly a step moves a
+// unit.
 World sleepy_world(Random& random, Grid grid) {
   World world = hostile_world(random, grid, 24);
   Parameters& p = world.parameters;
@@ -226,7 +227,7 @@ TEST_P(Heat, SleepChangesNothing) {
   EXPECT_GT(slept / kCases, 0.5) << "of the tiles should sleep";
 }
 
-// The same where all is matter, of one heat but for a few cells.
+// The same holds if all is matter, of one heat but for a few cells.
 TEST_P(Heat, SleepChangesNothingInDenseMatter) {
   Random random(15);
   double slept = 0;
@@ -261,7 +262,7 @@ TEST_P(Heat, SleepChangesNothingInDenseMatter) {
   EXPECT_GT(slept / kCases, 0.2) << "of the tiles should sleep";
 }
 
-// Conduction in tiles chosen at random, each row's side by side. It is right whatever the tiles beside
+// Conduction runs in tiles chosen at random, each row's side by side. It is right whatever the tiles beside
 // them hold.
 TEST_P(Heat, AnyTilesOfDenseMatter) {
   Random random(16);
@@ -300,7 +301,7 @@ TEST_P(Heat, AnyTilesOfDenseMatter) {
   }
 }
 
-// Every difference of two temperatures: pairs of cells along an axis, all else air.
+// Every difference of two temperatures occurs in pairs of cells along an axis. All else is air.
 TEST_P(Heat, EveryDifference) {
   Random random(14);
   for (int axis = 0; axis < 3; ++axis) {
@@ -344,7 +345,7 @@ TEST_P(Heat, EveryDifference) {
   }
 }
 
-// The slice is so large that a sum over it would overflow 32 bits: every cell loses, and none is full.
+// The slice is so large that a sum over it would overflow 32 bits. Every cell loses, and none is full.
 TEST_P(Heat, BooksOfManyCells) {
   const Grid grid{4096, 520, 2};
   Volume start(grid);

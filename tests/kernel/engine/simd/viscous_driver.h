@@ -25,7 +25,7 @@ class ViscousDriver {
     cpu::InstructionSet set;
     bool sleep = false;
     int tile_shift = 3;
-    int cut = 0;  // slices from here on run first; 0 or nz: one chunk
+    int cut = 0;  // first slice of the chunk that runs first; 0 or nz: one chunk
   };
 
   ViscousDriver(const rule::Parameters& parameters, state::Grid grid, Way way)
@@ -75,9 +75,9 @@ class ViscousDriver {
     ledger.book(books);
   }
 
-  // Tiles that the last phase was asked for.
+  // Counts the tiles that the last phase was asked for.
   int awake() const { return awake_; }
-  // Did `settle` name every tile in which it changed something?
+  // Tells whether `settle` named every tile in which it changed something.
   bool told() const { return told_; }
 
  private:
@@ -119,7 +119,7 @@ class ViscousDriver {
       for_fall_[i] |= changed[i];
     }
   }
-  // What a phase must look at: `noted` and its neighbours, within the grid.
+  // Returns the tiles that a phase must look at: `noted` and its neighbours, within the grid.
   Tiles take(Tiles& noted, const View& view, bool beside, bool above) {
     const TileRow words = view.words == 64 ? ~TileRow{0} : (TileRow{1} << view.words) - 1;
     Tiles work(noted.size());
@@ -189,7 +189,7 @@ class ViscousDriver {
     note(changed);
   }
 
-  // Runs the other phases. What they change is found by comparison.
+  // Runs the other phases. Their changes are found by comparison.
   void others(step::Phase phase, std::uint32_t number, state::Volume& volume, state::Ledger& ledger) {
     const state::Volume before = volume;
     rest_.run(phase, step::Moment(number), nullptr, volume, ledger);
@@ -223,11 +223,11 @@ class ViscousDriver {
   std::vector<state::LimitCounts<std::int64_t>> limits_;
   state::LimitCounts<std::int64_t> limit_;
   Runs runs_;
-  std::array<SliceCurrents, 4> currents_;  // a ring of two, at the cut, beyond the grid
+  std::array<SliceCurrents, 4> currents_;  // a ring of two, one at the cut, one beyond the grid
   std::unique_ptr<void, Free> scratch_;
   int rows_, awake_ = 0;
   bool told_ = true;
-  std::uint32_t substeps_ = 0;  // of the last settle
+  std::uint32_t substeps_ = 0;  // sub-steps of the last settle
   Tiles for_settle_, for_exchange_, for_fall_, restless_;
 };
 

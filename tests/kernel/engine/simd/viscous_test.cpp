@@ -1,5 +1,5 @@
-// The viscous law's kernels of every instruction set against the reference, after every phase: the same
-// state and the same books, whatever sleeps.
+// The viscous law's kernels of every instruction set agree with the reference after every phase. They give
+// the same state and the same books, whatever sleeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ std::string difference(const Volume& expected, const Volume& actual) {
 
 std::string digits(state::Sum value) { return state::to_string(value); }
 
-// Runs the reference, and kernels in each way, side by side; false at the first difference. `after(way,
-// phase, step, driver)`.
+// Runs the reference, and kernels in each way, side by side. Calls `after(way, phase, step, driver)`, and
+// returns false at the first difference.
 template <class After>
 bool same(const Parameters& parameters, const Volume& start, const std::vector<Way>& ways,
           std::uint32_t steps, After&& after) {
@@ -114,7 +114,7 @@ TEST(ViscousKernels, AreTheReferenceOnHostileStates) {
       }
 }
 
-// More than one group of words in a row of columns.
+// A row of columns has more than one group of words.
 TEST(ViscousKernels, AreTheReferenceOnWideGrids) {
   Random random(2);
   for (const int x : {256, 257, 330, 600}) {
@@ -127,7 +127,7 @@ TEST(ViscousKernels, AreTheReferenceOnWideGrids) {
   }
 }
 
-// Heads beyond 16 bits: shafts of compressed liquid, closed by a ceiling or open, beside low ones.
+// Heads exceed 16 bits: shafts of compressed liquid, closed by a ceiling or open, stand beside low ones.
 TEST(ViscousKernels, AreTheReferenceInDeepWater) {
   Random random(3);
   for (int round = 0; round < 60; ++round) {
@@ -157,8 +157,8 @@ TEST(ViscousKernels, AreTheReferenceInDeepWater) {
   }
 }
 
-// Tall columns in layers: some keep the order of their heat, others beside them do not. Lids and shelves part
-// a few.
+// The columns are tall and in layers. Some keep the order of their heat, and others beside them do not. Lids
+// and shelves part a few.
 TEST(ViscousKernels, AreTheReferenceInLayers) {
   Random random(8);
   for (int round = 0; round < 60; ++round) {
@@ -178,7 +178,7 @@ TEST(ViscousKernels, AreTheReferenceInLayers) {
   }
 }
 
-// Heads at either side of what 16 bits hold, among them words that have none of the greater ones.
+// Heads lie on either side of the 16-bit limit. Some words have none of the greater ones.
 TEST(ViscousKernels, AreTheReferenceWhereHeadsAreCut) {
   Random random(6);
   for (const bool by_word : {false, true}) {
@@ -209,12 +209,12 @@ TEST(ViscousKernels, MaySleepOnHostileStates) {
   }
 }
 
-// Blobs that fall, flow and come to rest on uneven ground: everything is asleep in the end.
+// Blobs fall, flow and come to rest on uneven ground. Everything is asleep in the end.
 TEST(ViscousKernels, MaySleepInCalmScenes) {
   Random random(5);
   for (int round = 0; round < 4; ++round) {
     const Grid grid{150, 16, 8};
-    // (Drawn one by one: the same scenes whatever the compiler.)
+    // The numbers are drawn one by one, so the scenes are the same whatever the compiler.
     const double yield = random.any({0.5, 2.0}), kappa = random.any({0.1, 0.3, 2.0});
     Parameters p = worlds::viscous(kappa, yield);
     p.flow.fall.factor = static_cast<std::uint32_t>(random.any({30000, 65536}));
@@ -242,8 +242,8 @@ TEST(ViscousKernels, MaySleepInCalmScenes) {
   }
 }
 
-// Dams break beside pools at rest: the number of sub-steps falls with their depth, and then all runs show
-// other mobilities, also where everything slept.
+// Dams break beside pools at rest. The number of sub-steps falls with their depth. Then all runs show other
+// mobilities, also where everything slept.
 TEST(ViscousKernels, MaySleepWhileTheSubstepsChange) {
   const Grid grid{130, 9, 4};
   Random random(8);
@@ -268,8 +268,8 @@ TEST(ViscousKernels, MaySleepWhileTheSubstepsChange) {
   EXPECT_GT(fewer, 3) << "as many as at first: nothing was tried";
 }
 
-// A string of full cells that hangs by its lowest one: when what that one touches melts, all of them follow
-// in one step, far from anything else that changed.
+// A string of full cells hangs by its lowest one. When the solid that this one touches melts, all of them
+// follow in one step, far from anything else that changed.
 TEST(ViscousKernels, FollowWhatFallsBeyondTheTilesAwake) {
   const Grid grid{8, 40, 3};
   Parameters p = worlds::viscous(0.1, 1);

@@ -1,5 +1,5 @@
-// Section 5 of docs/automaton.md, written again and plainly: the rays of every kind of source, and what a
-// cell receives. Nothing of kernel/automaton/rule is used but its data.
+// Section 5 of docs/automaton.md is written again and plainly: the rays of every kind of source, and the heat
+// that a cell receives. Only the data of kernel/automaton/rule are used.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace voxmelt::visibility {
 
-// A source at one step.
+// Describes a source at one step.
 struct Shine {
   rule::SourceKind kind = rule::SourceKind::point;
   rule::SourceKey key;
@@ -47,7 +47,7 @@ inline Wide root(Wide square) {
   return guess;
 }
 
-// Section 2, with another last word of the key.
+// Computes the word of section 2, with another last word of the key.
 inline std::uint64_t word(std::uint64_t seed, std::uint32_t face, std::uint64_t index) {
   const auto right = [](std::uint32_t v) { return v >> 8 | v << 24; };
   const auto left = [](std::uint32_t v) { return v << 3 | v >> 29; };
@@ -115,7 +115,7 @@ inline Three on_disc(const Three& s, const Three& delta, Wide radius, const Turn
   return end;
 }
 
-// P + k D, with k counted up from 1.
+// Returns the first P + k D outside the grid, with k counted up from 1.
 inline Three out_of(const state::Grid& g, const Three& from, const Three& way) {
   const Three n{g.x, g.y, g.z};
   Three at = from;
@@ -137,7 +137,7 @@ inline bool opaque(const worlds::Volume& v, const Cell& c) {
 
 }  // namespace page
 
-// All rays that are cast of one cell.
+// Adds all rays that are cast from one cell.
 inline void add_page_rays(std::vector<PageRay>& rays, const worlds::Volume& v, const Cell& cell,
                           const Shine& shine, int side, std::uint64_t seed) {
   using namespace page;
@@ -194,7 +194,7 @@ inline void add_page_rays(std::vector<PageRay>& rays, const worlds::Volume& v, c
   }
 }
 
-// Those of all solid cells, by cells in the order of the grid.
+// Returns the rays of all solid cells, by cells in the order of the grid.
 inline std::vector<PageRay> page_rays(const worlds::Volume& v, const Shine& shine, int side,
                                       std::uint64_t seed) {
   std::vector<PageRay> rays;
@@ -204,7 +204,7 @@ inline std::vector<PageRay> page_rays(const worlds::Volume& v, const Shine& shin
   return rays;
 }
 
-// What a cell receives whose seeing rays weigh `sum` together.
+// Returns the irradiance of a cell whose seeing rays weigh `sum` together.
 inline std::uint64_t page_received(const Cell& cell, const Shine& shine, std::int64_t sum, int rays) {
   using namespace page;
   using enum rule::SourceKind;

@@ -1,4 +1,4 @@
-// Holds a caster against rule::VoxelWalk, ray by ray.
+// Checks a caster against rule::VoxelWalk, ray by ray.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace voxmelt::visibility {
 
-// The places, as Opaque numbers them, of the opaque cells that a ray meets.
+// Returns the opaque cells that a ray meets, by their places in Opaque.
 inline std::vector<std::size_t> met_by(const Volume& v, const Ray& ray) {
   std::vector<std::size_t> places;
   const auto bricks = [](int size) { return static_cast<std::size_t>((size + 7) / 8); };
@@ -36,10 +36,10 @@ struct Counts {
   std::size_t rays = 0, seeing = 0;
 };
 
-// Several casters, because the walk, which takes the time, is the same for all.
+// Holds several casters, because the walk, which takes the time, is the same for all.
 using Casters = std::vector<Caster*>;
 
-// Each casts all rays of a source at once, and every fate is held.
+// Lets each caster cast all rays of a source at once, and checks every fate.
 inline Counts check_fates(const Casters& casters, const Opaque& opaque, const Volume& v, const Shine& shine,
                           int side, std::uint64_t seed = 1) {
   std::vector<Ray> rays;
@@ -64,7 +64,8 @@ inline Counts check_fates(const Casters& casters, const Opaque& opaque, const Vo
   return counts;
 }
 
-// Random worlds, each with three sources of any kind; while it melts, a caster keeps what it has built.
+// Casts in random worlds, each with three sources of any kind. While a world melts, a caster keeps its
+// structures.
 inline void check_hostile_worlds(const Casters& casters, int worlds, std::uint64_t seed) {
   Random random(seed);
   cpu::Workers workers(1);
@@ -89,7 +90,8 @@ inline void check_hostile_worlds(const Casters& casters, int worlds, std::uint64
   EXPECT_GT(all.rays - all.seeing, all.rays / 20) << "few of " << all.rays << " are dark";
 }
 
-// Five states of one size: a ball, a wall with holes, a comb of plates, dust, and a ball half melted.
+// Makes one of five states of one size: a ball, a wall with holes, a comb of plates, dust, and a ball half
+// melted.
 inline Volume ray_scene(int number, const Grid& grid = {48, 40, 44}) {
   Volume v(grid);
   Random random(static_cast<std::uint64_t>(number));
@@ -123,7 +125,7 @@ inline void check_scenes(const Casters& casters) {
     for (int n = 0; n < 100 && !testing::Test::HasFailure(); ++n) {
       for (const rule::SourceKindRow& row : rule::kSourceKinds) {
         const rule::SourceKind kind = row.kind;
-        if (kind == rule::SourceKind::sky && n > 5) continue;  // one is as the other
+        if (kind == rule::SourceKind::sky && n > 5) continue;  // one sky is like another
         const auto seed = static_cast<std::uint64_t>(n);
         const Counts counts = check_fates(casters, opaque, v, awkward_shine(random, v.grid, kind), 1, seed);
         all.rays += counts.rays;

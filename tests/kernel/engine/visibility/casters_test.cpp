@@ -1,4 +1,4 @@
-// The casters of this room, and the surface by words, against rule::VoxelWalk and the page.
+// The casters of this room, and the surface by words, agree with rule::VoxelWalk and the page.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
   check_scenes({&two_level});
 }
 
-// Step by step, from brick to brick, and straight into each brick: the same cells as VoxelWalk, in 64 bits
-// and in 128.
+// Follows a ray step by step, from brick to brick, and straight into each brick. The cells are those of
+// VoxelWalk, in 64 bits and in 128.
 template <class Whole>
 void follow(const Ray& ray) {
   std::vector<Cell> cells;
@@ -54,7 +54,7 @@ void follow(const Ray& ray) {
     BrickWalk<Whole> into(ray.cell, course);
     ASSERT_TRUE(into.enter(first));
     ASSERT_EQ(into.cell(), cell);
-    for (std::size_t a = 0; a < 3; ++a) {  // a brick beside it, that the walk may miss
+    for (std::size_t a = 0; a < 3; ++a) {  // a brick beside it that the walk may miss
       Cell beside = first;
       beside[a] += 8;
       const auto in_it = [&](const Cell& c) {
@@ -75,7 +75,7 @@ void follow(const Ray& ray) {
   ASSERT_TRUE(!ends || !by_bricks.leave(1));
 }
 
-// Out of cubes of bricks, of all sides: to the first cell of VoxelWalk that lies beyond.
+// Leaves cubes of bricks, of all sides, and arrives at the first cell of VoxelWalk that lies beyond.
 template <class Whole>
 void follow_cubes(const Ray& ray, Random& random) {
   const Course course(ray);
@@ -125,7 +125,8 @@ TEST(BrickWalk, IsTheWalk) {
   }
 }
 
-// The longest course that counts as narrow, from corner to corner of the largest grid: no number overflows.
+// The longest course that counts as narrow goes from corner to corner of the largest grid. No number
+// overflows.
 TEST(BrickWalk, TheLongestNarrowCourse) {
   const Position source{kLongestNarrow, kLongestNarrow - 8, kLongestNarrow - 24};
   const Ray ray{{0, 0, 0}, {0, 6, 14}, source};
@@ -140,7 +141,7 @@ TEST(BrickWalk, TheLongestNarrowCourse) {
   EXPECT_GE(walk.cell()[0], 4095);
 }
 
-// No face is forgotten that has a ray. Of points and suns, all that may look have rays.
+// No face that has a ray is forgotten. For points and suns, all faces that may look have rays.
 TEST(Surface, ByWordsHasTheFacesOfThePage) {
   Random random(9);
   cpu::Workers workers(1);

@@ -1,4 +1,4 @@
-// Gaps, and what is clear ahead in a brick, against a look at every brick and cell that they speak of.
+// Gaps, and the clear way ahead in a brick, agree with a look at every brick and cell that they speak of.
 #include "kernel/engine/visibility/gaps.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace voxmelt::visibility {
 namespace {
 
-// The first and the last brick of the cube of `side` bricks that begins at `at`, along one axis.
+// Holds the first and the last brick of the cube of `side` bricks that begins at `at`, along one axis.
 struct Range {
   Range(int at, int side, bool up, int size)
       : first(std::max(0, up ? at : at - side + 1)), last(std::min(size - 1, up ? at + side - 1 : at)) {}
@@ -34,7 +34,7 @@ struct Found {
   std::size_t endless = 0, wide = 0, largest = 0;
 };
 
-// Every gap holds; where they have just been found, none could be wider.
+// Expects that every gap holds. If the gaps have just been found, none could be wider.
 void check_gaps(const Gaps& gaps, const Opaque& opaque, bool fresh, Found& found) {
   const state::Grid& g = opaque.bricks();
   const int whole_grid = std::max({g.x, g.y, g.z});
@@ -59,7 +59,7 @@ void check_gaps(const Gaps& gaps, const Opaque& opaque, bool fresh, Found& found
   });
 }
 
-// Worlds of a few cells: they appear, and then they vanish one after the other.
+// The worlds have a few cells, which appear, and then vanish one after the other.
 TEST(Gaps, AreAsWideAsTheyCanBe) {
   Random random(31);
   cpu::Workers workers(1);
@@ -89,7 +89,7 @@ TEST(Gaps, AreAsWideAsTheyCanBe) {
   EXPECT_GT(found.largest, 5u);
 }
 
-// Where half of the bricks have emptied, the gaps grow.
+// After half of the bricks have emptied, the gaps grow.
 TEST(Gaps, AreFoundAnewAsBricksEmpty) {
   Volume v(Grid{80, 8, 8});
   for (int x = 0; x < 80; x += 8) put_solid(v, x, 0, 0);

@@ -1,4 +1,4 @@
-// Casting only what changed against casting everything: the same bits in every cell, call after call.
+// Casting only what changed gives the same bits in every cell as casting everything, call after call.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace voxmelt::visibility {
 namespace {
 
-// What all have: a result that each provider gets back as it left it.
+// Holds a provider with the result that it gets back as it left it.
 struct Kept {
   KeptRays provider;
   state::Field<std::uint16_t> result;
@@ -31,7 +31,7 @@ void expect_all_cast(Kept& kept, const Volume& v, const rule::Heat& heat, std::u
 
 enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed };
 
-// Melting, and all that a user can do between two castings.
+// Between two castings the world melts, and everything happens that a user can do.
 TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
   Random random(303);
   Casts casts;
@@ -65,7 +65,7 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
           v.inert.set(x, y, z, solid);
         }
       });
-      if (event == moves) {  // also: a source of another kind takes its place
+      if (event == moves) {  // or a source of another kind takes its place
         const Shine other =
             random.one_in(3) ? awkward_shine(random, v.grid) : awkward_shine(random, v.grid, source.kind);
         key = other.key;
@@ -85,7 +85,7 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
   EXPECT_LT(casts.cast, casts.asked) << "something is remembered";
 }
 
-// A ball that melts from the outside, beside a wall of rock. Few rays are cast again.
+// A ball melts from the outside, beside a wall of rock. Few rays are cast again.
 TEST(KeptRays, CastsFewRaysWhileABallMelts) {
   Volume v(Grid{40, 40, 40});
   const auto from_centre = [](int x, int y, int z) {
@@ -126,8 +126,8 @@ TEST(KeptRays, CastsNothingWhereNothingChanged) {
   EXPECT_EQ(kept.provider.casts().asked, 3 * first.asked);
 }
 
-// Where every second cell is solid, its rays would take 52 bytes for each cell of the grid. So nothing is
-// kept, and the bits are the same.
+// If every second cell is solid, its rays would take 52 bytes for each cell of the grid. So nothing is kept,
+// and the bits are the same.
 TEST(KeptRays, TakeNoMoreMemoryThanSaid) {
   Volume v(Grid{64, 48, 24});
   for_each(whole(v.grid), [&](int x, int y, int z) {

@@ -1,4 +1,4 @@
-// Holds a provider against by_the_page.h, for every kind of source.
+// Checks a provider against by_the_page.h, for every kind of source.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@
 
 namespace voxmelt::visibility {
 
-// What every cell receives from sources that rest, by the page. Rays are followed by rule::VoxelWalk.
+// Returns the irradiance of every cell from sources that rest, by the page. Rays are followed by
+// rule::VoxelWalk.
 inline std::vector<std::uint16_t> received_by_the_page(const Volume& v, const std::vector<Shine>& shines,
                                                        int side, std::uint64_t seed) {
   std::vector<std::uint16_t> received(v.grid.cells());
@@ -42,7 +43,7 @@ inline void expect_page(const Volume& v, const std::vector<std::uint16_t>& expec
   EXPECT_EQ(wrong, 0u) << where;
 }
 
-// 200 worlds, each with up to two sources of one kind after the other, that melt once.
+// Takes 200 worlds, each with up to two sources of one kind after the other. Each world melts once.
 inline void check_kinds_in_hostile_worlds(const std::vector<Provider*>& providers, std::uint64_t seed) {
   Random random(seed);
   std::size_t lit = 0, cells = 0;
@@ -76,7 +77,7 @@ inline void check_kinds_in_hostile_worlds(const std::vector<Provider*>& provider
   EXPECT_GT(lit, cells / 40);
 }
 
-// 100 places of every kind, in a world that is easy to look at, with 1, 4 and 16 rays.
+// Takes 100 places of every kind, in a world that is easy to look at, with 1, 4 and 16 rays.
 inline void check_places_of_every_kind(const std::vector<Provider*>& providers, std::uint64_t seed) {
   constexpr Grid kGrid{21, 18, 20};
   Random random(seed);

@@ -1,4 +1,4 @@
-// Points, spheres, suns and skies: against the page, against integrals, and against known answers.
+// Points, spheres, suns and skies agree with the page, with integrals, and with known answers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using enum rule::SourceKind;
 
-constexpr std::uint64_t kFull = std::uint64_t{256} * 16384;  // 16384 for what is turned to a sun
+constexpr std::uint64_t kFull = std::uint64_t{256} * 16384;  // 16384 for a face that is turned to a sun
 
 struct Providers {
   VoxelWalkProvider walk;
@@ -54,8 +54,9 @@ TEST(Sphere, OfRadius0IsAPoint) {
   }
 }
 
-// A floor, and a shade above it that ends at x = 16. A distant sphere of radius r is straight above the edge.
-// From a place of the floor its disc is cut by a straight line: circle segments, by the angle.
+// A floor lies under a shade that ends at x = 16. A distant sphere of radius r is straight above the edge.
+// From a place of the floor its disc is cut by a straight line, so its part is a circle segment, by the
+// angle.
 TEST(Sphere, ShadowEdgeIsTheSegmentOfADisc) {
   Volume v(Grid{32, 24, 64});
   for_each({0, 0, 0, 32, 1, 64}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
@@ -87,8 +88,8 @@ TEST(Sphere, ShadowEdgeIsTheSegmentOfADisc) {
   }
 }
 
-// Whole above the planes of three faces, a sphere gives what a point at its centre gives. Nearer than its
-// radius it gives no more than at its surface.
+// If a sphere is whole above the planes of three faces, it gives as much as a point at its centre. Nearer
+// than its radius it gives no more than at its surface.
 TEST(Sphere, UnhiddenIsAsItsCentre) {
   Volume v(Grid{9, 9, 9});
   put_solid(v, 4, 4, 4);
@@ -127,7 +128,8 @@ TEST(Directional, GivesTheCosineAndNoDistance) {
   }
 }
 
-// A wall of 10 cells, and a sun at 45 degrees: its shadow on the floor is as long, for any length of D.
+// A wall of 10 cells stands under a sun at 45 degrees. Its shadow on the floor is as long, for any length of
+// D.
 TEST(Directional, ShadowsAreAsLongAsThePageSays) {
   for (const std::int64_t length : {1, 3, 16, 100, 5000, 65536}) {
     Volume v(Grid{30, 14, 5});
@@ -149,7 +151,7 @@ TEST(Directional, RaysReachTheEndOfTheGrid) {
   }
 }
 
-// An open floor has it all, by 1, 4 and 16 rays. An upright wall has half, exactly by 4 and 16.
+// An open floor has it all, by 1, 4 and 16 rays. An upright wall has half, and by 4 and 16 rays exactly half.
 TEST(Sky, OpenFloorAndWall) {
   Volume v(Grid{20, 20, 20});
   for_each({0, 0, 0, 20, 1, 20}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
@@ -176,7 +178,8 @@ TEST(Sky, OpenFloorAndWall) {
   }
 }
 
-// The part of the sky that a place sees through the opening of a hollow: a double integral over the opening.
+// Returns the part of the sky that a place sees through the opening of a hollow, by a double integral over
+// the opening.
 double view_factor(double x, double z, double width, double depth, double height) {
   constexpr int kParts = 200;
   double sum = 0;
@@ -189,7 +192,7 @@ double view_factor(double x, double z, double width, double depth, double height
   return sum;
 }
 
-// The bottom of a shaft 8 x 12 wide and 5, 10, 20 deep.
+// The place is at the bottom of a shaft that is 8 x 12 wide and 5, 10, 20 deep.
 TEST(Sky, BottomOfAHollowIsItsViewFactor) {
   for (const int deep : {5, 10, 20})
     for (const int rays : {1, 4, 16}) {
@@ -227,7 +230,7 @@ TEST(Sky, HasNoBands) {
   }
 }
 
-// All numbers of a source move between its keys; a step in the middle is as a source at rest there.
+// All numbers of a source move between its keys. A step in the middle is as a source at rest there.
 TEST(Kinds, MoveByTheirKeys) {
   Random random(31);
   const Volume v = ray_scene(3, {30, 20, 20});
@@ -263,7 +266,7 @@ TEST(Kinds, MoveByTheirKeys) {
   }
 }
 
-// A sky rests while its power changes, and so does a sphere: no ray is cast again.
+// A sky rests while its power changes, and so does a sphere. No ray is cast again.
 TEST(Kinds, RestWhileOnlyTheirPowerChanges) {
   const Volume v = ray_scene(0, {30, 20, 20});
   rule::Heat heat = shone_by(
@@ -286,7 +289,8 @@ TEST(Kinds, RestWhileOnlyTheirPowerChanges) {
   EXPECT_EQ(kept.casts().asked, 6 * first) << "rays that are not cast are not asked for";
 }
 
-// Where they end, the sums of |p| and |q|, and the parts of the disc: 256 words by 16 rays.
+// 4096 words by 16 rays fill the quarters and the rings of the disc evenly. Each place is rho away from the
+// middle.
 TEST(Places, FillTheDiscEvenly) {
   std::array<int, 4> quarters{}, rings{};
   for (std::uint64_t word = 0; word < 4096; ++word)
@@ -302,8 +306,8 @@ TEST(Places, FillTheDiscEvenly) {
   for (const int count : rings) EXPECT_NEAR(count, 4096 * 4, 100);
 }
 
-// Worked by hand: word 0, the only ray: u = v = 0; rho = floor(sqrt(2048)) = 45; 45 x 16382 >> 14 = 44, and
-// 45 x 201 >> 14 = 0. With u = 16384 (word 0x4000) it is turned once.
+// By hand, word 0 and the only ray give u = v = 0 and rho = floor(sqrt(2048)) = 45. Then 45 x 16382 >> 14 =
+// 44, and 45 x 201 >> 14 = 0. With u = 16384 (word 0x4000) it is turned once.
 TEST(Places, ByHand) {
   const rule::DiscPlace first = rule::disc_place(0, 0, 1), turned = rule::disc_place(0x4000, 0, 1);
   EXPECT_EQ(first.rho, 45);
@@ -311,7 +315,7 @@ TEST(Places, ByHand) {
   EXPECT_EQ(first.q, 1);
   EXPECT_EQ(turned.p, -1);
   EXPECT_EQ(turned.q, 45);
-  // The vectors of a disc seen along -z: g = (0, -16384, 0) for least axis x, v = f x g.
+  // These are the vectors of a disc seen along -z: g = (0, -16384, 0) for least axis x, and v = f x g.
   const rule::DiscAxes axes = rule::disc_axes({0, 0, -1600});
   EXPECT_EQ(axes.g, (rule::Triple{0, -16384, 0}));
   EXPECT_EQ(axes.v, (rule::Triple{-16384, 0, 0}));

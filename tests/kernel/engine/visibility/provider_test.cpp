@@ -1,4 +1,5 @@
-// What each solid cell receives: by brute force on random grids, and on worlds with a known answer.
+// The irradiance of each solid cell is compared with brute force on random grids, and with worlds of a known
+// answer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,14 +35,15 @@ bool opaque(const Volume& v, int x, int y, int z) {
   return v.grid.contains(x, y, z) && (v.solid.test(x, y, z) || v.inert.test(x, y, z));
 }
 
-// Is the open segment from `c` to `s` cut by no opaque cell? Every cell of the grid is asked, by an exact
-// slab test.
+// Tells whether no opaque cell cuts the open segment from `c` to `s`. An exact slab test asks every cell of
+// the grid.
 bool clear(const Volume& v, std::array<std::int64_t, 3> c, Position s) {
   const std::array<std::int64_t, 3> d{s.x - c[0], s.y - c[1], s.z - c[2]};
   bool hidden = false;
   for_each(whole(v.grid), [&](int bx, int by, int bz) {
     if (hidden || !opaque(v, bx, by, bz)) return;
-    // Cut t in (0, 1) to where c + t d is inside the open cell; fractions over / under with under > 0.
+    // Cuts t in (0, 1) to the part where c + t d is inside the open cell. Fractions are over / under with
+    // under > 0.
     std::int64_t low = 0, low_under = 1, high = 1, high_under = 1;
     const std::array<std::int64_t, 3> corner{16 * bx, 16 * by, 16 * bz};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -63,7 +65,7 @@ bool clear(const Volume& v, std::array<std::int64_t, 3> c, Position s) {
   return !hidden;
 }
 
-// Section 5, written again: every ray of every face by itself, the square root in floating point.
+// Section 5 is written again: every ray of every face by itself, with the square root in floating point.
 std::uint64_t by_the_page(const Volume& v, int x, int y, int z, Position s, std::uint64_t power, int rays) {
   const std::array<std::int64_t, 3> c{16 * x + 8, 16 * y + 8, 16 * z + 8},
       d{s.x - c[0], s.y - c[1], s.z - c[2]};
@@ -163,7 +165,7 @@ TEST(Irradiance, CutsAreCounted) {
   EXPECT_EQ(cuts(1, 65536), 1);
 }
 
-// A flat surface receives the cosine, at every angle (the source 400 cells away); so do its sides' shadows.
+// A flat surface receives the cosine, at every angle (the source is 400 cells away).
 TEST(Irradiance, AFlatSurfaceReceivesTheCosine) {
   Volume v(Grid{33, 9, 33});
   for_each({0, 0, 0, 33, 4, 33}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
@@ -186,7 +188,7 @@ TEST(Irradiance, SourceInsideASolidLightsNothingBeyondIt) {
   put_solid(v, 0, 4, 4);
   const state::Field<std::uint16_t> inside = irradiance(v, lit_by({{72, 72, 72}}, 1u << 30));
   for (const std::uint16_t i : inside.stored()) EXPECT_EQ(i, 0);
-  // In the plane of the block's face: what lies across is lit by it, and that plane is not.
+  // The source lies in the plane of the block's face. It lights the face across, and not that plane.
   const state::Field<std::uint16_t> face = irradiance(v, lit_by({{48, 72, 72}}, 1u << 30));
   EXPECT_EQ(face[v.at(3, 4, 4)], 0);
   EXPECT_GT(face[v.at(0, 4, 4)], 0);
@@ -207,7 +209,7 @@ TEST(Irradiance, LiquidIsTransparentAndInertIsNot) {
   EXPECT_EQ(irradiance(v, heat)[i], 0);
 }
 
-// One-cell-thick walls are tight: also along the diagonals, where only corners touch.
+// One-cell-thick walls are tight, also along the diagonals, where only corners touch.
 TEST(Irradiance, ThinWallsAreTight) {
   Volume v(Grid{15, 9, 9});
   for_each({7, 0, 0, 8, 9, 9}, [&](int x, int y, int z) { put_inert(v, x, y, z); });
@@ -236,7 +238,7 @@ TEST(Irradiance, AMovingSourceIsWhereItsStepSays) {
               irradiance(v, lit_by({{std::min(9 * std::int64_t{step}, std::int64_t{144}), 24, 24}}, kPower)));
 }
 
-// Half-way and one step to power (2^22 - 1) 2^28, 2^17 sixteenths above: the cell gets
+// The source is half-way and one step to power (2^22 - 1) 2^28, and 2^17 sixteenths above. The cell gets
 // (2^22 - 1) 2^14 x 8193 / 2^34 = 4 x 8193 - 8193 / 2^20.
 TEST(Irradiance, OfASourceThatGrowsToTheMostPower) {
   Volume v(Grid{3, 3, 3});
@@ -247,7 +249,7 @@ TEST(Irradiance, OfASourceThatGrowsToTheMostPower) {
   EXPECT_EQ(irradiance(v, growing, 8193)[v.at(1, 1, 1)], 32771);
 }
 
-// Between refreshes: a cell exposed by melting has no irradiance yet, and the melted one takes no more.
+// Between refreshes a cell exposed by melting has no irradiance yet, and the melted one takes no more.
 TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
   Parameters p = viscous(0.02);
   p.heat = lit_by({{16 * 5 + 8, 16 * 30, 16 * 5 + 8}},
@@ -259,7 +261,7 @@ TEST(Refresh, ExposedCellsWaitAndMeltedCellsStop) {
   run::Simulation s = simulate(p, v);
   const state::Slot lower = v.at(5, 3, 5);
   bool melted = false;
-  state::Sum taken = 0;  // by the upper cell, until it melted
+  state::Sum taken = 0;  // heat that the upper cell takes until it melts
   for (int i = 0; i < 20; ++i) {
     s.step();
     const bool now = !s.volume().solid.test(5, 4, 5);

@@ -1,4 +1,5 @@
-// Volumes that rays find hard, sources in awkward places, and every ray that the page asks for.
+// These volumes are hard for rays, these sources lie in awkward places, and the page asks for every one of
+// the rays.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace voxmelt::visibility {
 using namespace worlds;
 using rule::Position;
 
-// A power that a cell at the middle distance of the grid feels, and that cuts the nearest.
+// A cell at the middle distance of the grid feels this power, and it cuts the nearest.
 constexpr std::uint64_t kRayPower = std::uint64_t{1} << 24;
 
 inline rule::Heat shone_by(const std::vector<Position>& sources, int rays = 1,
@@ -25,7 +26,8 @@ inline rule::Heat shone_by(const std::vector<Position>& sources, int rays = 1,
   return heat;
 }
 
-// Sides that straddle words of 64 and bricks of 8, or are a single cell. At most 2^14 cells.
+// Returns sides that straddle words of 64 and bricks of 8, or are a single cell. The grid has at most 2^14
+// cells.
 inline Grid hostile_grid(Random& random) {
   const auto side = [&] { return random.any({1, 2, 7, 8, 9, 15, 16, 17, 25, 63, 64, 65, 72, 130}); };
   Grid g{side(), side(), side()};
@@ -42,7 +44,7 @@ inline void put_any(Volume& v, Random& random, int x, int y, int z) {
   put_solid(v, x, y, z);
 }
 
-// Dust, blocks of cells, plates, or all but some holes.
+// Makes dust, blocks of cells, plates, or all but some holes.
 inline Volume hostile_world(Random& random, const Grid& g) {
   Volume v(g);
   const int kind = random.below(4);
@@ -66,8 +68,8 @@ inline Volume hostile_world(Random& random, const Grid& g) {
   return v;
 }
 
-// In the plane of faces, on an edge or a corner, at the centre of a cell (also of a solid), anywhere, or far
-// outside: so far that 64 bits no longer suffice for one denominator.
+// Puts a source in the plane of faces, on an edge or a corner, at the centre of a cell (also of a solid),
+// anywhere, or far outside. Far sources need more than 64 bits for one denominator.
 inline Position awkward_source(Random& random, const Grid& g) {
   const bool far = random.one_in(6);
   const auto coordinate = [&](int size) -> std::int64_t {
@@ -89,7 +91,7 @@ inline Position awkward_source(Random& random, const Grid& g) {
   return {coordinate(g.x), coordinate(g.y), coordinate(g.z)};
 }
 
-// A sphere from nothing to larger than its distance, a sun along axes and nearly along them, or a sky.
+// Makes a sphere from nothing to larger than its distance, a sun along axes and nearly along them, or a sky.
 inline Shine awkward_shine(Random& random, const Grid& g, rule::SourceKind kind) {
   const rule::SourceKindRow& row = rule::row_of(kind);
   Shine shine{kind, {.power = kRayPower}};

@@ -1,4 +1,4 @@
-// The integer walk against an exact test of the segment with every cell of the grid, in rational numbers.
+// The integer walk agrees with an exact test of the segment with every cell of the grid, in rational numbers.
 #include "kernel/automaton/rule/visibility.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ using namespace worlds;
 using rule::Position;
 using Cell = std::tuple<int, int, int>;
 
-// Does the open segment from `from` to `to` meet the interior of `cell`? Slab test: on each axis the open
-// interval of the parameter t in (0, 1); fractions compared by cross-multiplication.
+// Tells whether the open segment from `from` to `to` meets the interior of `cell`. The slab test finds, on
+// each axis, the open interval of the parameter t in (0, 1). Fractions are compared by cross-multiplication.
 struct Fraction {
   std::int64_t over, under;  // under > 0
 };
@@ -52,7 +52,7 @@ bool meets_interior(Position from, Position to, Cell cell) {
 TEST(VoxelWalk, CrossesExactlyTheCellsWhoseInteriorTheSegmentMeets) {
   Random random(21);
   for (int trial = 0; trial < 4000; ++trial) {
-    // From the inside of a cell, or from one of its faces inwards.
+    // The ray starts in the inside of a cell, or on one of its faces and goes inwards.
     const Cell first{random.below(6), random.below(6), random.below(6)};
     std::array<std::int64_t, 3> start{16 * std::get<0>(first) + random.between(1, 15),
                                       16 * std::get<1>(first) + random.between(1, 15),
@@ -60,7 +60,7 @@ TEST(VoxelWalk, CrossesExactlyTheCellsWhoseInteriorTheSegmentMeets) {
     const auto axis = static_cast<std::size_t>(random.below(4));
     const bool upwards = random.one_in(2);
     if (axis < 3) start[axis] = (start[axis] & ~15) + (upwards ? 0 : 16);
-    // Any point; a face, edge or corner point; a cell centre; far outside.
+    // It ends at any point, a face, edge or corner point, a cell centre, or far outside.
     const auto coordinate = [&]() -> std::int64_t {
       switch (random.below(4)) {
         case 0:
@@ -128,9 +128,9 @@ TEST(Irradiance, FallsWithTheSquareAndTheCosine) {
   EXPECT_EQ(rule::irradiance(power, 64, 4, 256), 1000u) << "four rays of one face";
   EXPECT_EQ(rule::irradiance(power, 7 * 16, 16, 256), 437u) << "seven of sixteen rays";
   EXPECT_EQ(rule::irradiance(power, 0, 1, 256), 0u);
-  // 1000 x 256 x 48 / 768^1.5 = 577.35; the length is floored: 64 sqrt(768) = 1773.6.
+  // 1000 x 256 x 48 / 768^1.5 is 577.35. The length is floored: 64 sqrt(768) = 1773.6.
   EXPECT_EQ(rule::irradiance(power, 48, 1, 768), 577u) << "all three faces along the space diagonal";
-  // Products wider than 64 bits: (2^50 - 1) 64 2^20 / (2^40 2^26) = 2^10 - 2^-40.
+  // Some products are wider than 64 bits: (2^50 - 1) 64 2^20 / (2^40 2^26) = 2^10 - 2^-40.
   EXPECT_EQ(rule::irradiance((std::uint64_t{1} << 50) - 1, 1 << 20, 1, std::uint64_t{1} << 40), 1023u);
   EXPECT_EQ(rule::irradiance((std::uint64_t{1} << 50) - 1, 3ll << 25, 1, 3ull << 50), 0u) << "0.577";
 }

@@ -1,4 +1,4 @@
-// Exported fields, byte by byte; output folders that are never half-written.
+// Exported fields are compared byte by byte, and output folders are never half-written.
 #include "kernel/run/io/export.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST_F(Export, VtiHoldsTheSameBytes) {
   EXPECT_EQ(vti.substr(start + 3 * 20 + 8 + 2, 2), "\x34\x12");
 }
 
-// Into a folder that holds nothing else, so that no two formats can be one.
+// Each format writes into a folder that holds nothing else, so that no two formats can be one.
 TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
   std::set<std::string> all;
   for (const Format& format : formats()) {
@@ -223,7 +223,7 @@ TEST_F(Export, AnOutputFolderAppearsWholeOrNotAtAll) {
   }
   EXPECT_EQ(read("out/a"), "1");
   {
-    OutputFolder out(place);  // ours: replaced whole
+    OutputFolder out(place);  // our own output is replaced whole
     write_file(out.partial() / "b", "2");
     out.commit();
   }

@@ -1,4 +1,4 @@
-// Output folders among living and dead processes, old outputs, and foreign files.
+// Output folders are made among living and dead processes, old outputs, and foreign files.
 #include "kernel/run/io/output_folder.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class OutputFolders : public testing::Test {
     write_file(out.partial() / "a", text);
     out.commit();
   }
-  // A process that begins an output and is killed, or lives until `meanwhile` has returned.
+  // Runs a process that begins an output. It is killed, or lives until `meanwhile` has returned.
   void with_another_process(const std::function<void()>& meanwhile, bool dead) const {
     int ready[2];
     ASSERT_EQ(::pipe(ready), 0);
@@ -90,7 +90,7 @@ TEST_F(OutputFolders, ALivingProcessIsNotDisturbed) {
         EXPECT_EQ(before.size(), 2U);
         EXPECT_THROW(OutputFolder{place_}, OutputError);
         EXPECT_EQ(names(), before);
-        OutputFolder beside(folder_ / "out2");  // its name only begins like the other
+        OutputFolder beside(folder_ / "out2");  // only the first part of its name is the same
         beside.commit();
       },
       false);
@@ -126,7 +126,7 @@ TEST_F(OutputFolders, AnIncompleteOneLeavesTheOldOneAlone) {
   EXPECT_EQ(read("out/a"), "1");
   EXPECT_EQ(read("out.incomplete/a"), "half");
   EXPECT_EQ(names(), (std::set<std::string>{"out", "out.incomplete"}));
-  make("2");  // and the next one that is complete does not mind it
+  make("2");  // the next complete output does not mind it
   EXPECT_EQ(read("out/a"), "2");
 }
 

@@ -1,4 +1,4 @@
-// `auto`: the fastest of a trial, remembered for the same program on the same processor.
+// `auto` takes the fastest of a trial, and remembers it for the same program on the same processor.
 #include "kernel/run/trial/fastest.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ class Fastest : public testing::Test {
   fs::path folder_;
   step::Registry registry_;
   std::map<std::string, double> seconds_{
-      {"narrow", 3}, {"wide", 1.5}, {"wider", 1.8}};  // "plain": never tried
+      {"narrow", 3}, {"wide", 1.5}, {"wider", 1.8}};  // "plain" is never tried
   int trials_ = 0;
 };
 
@@ -147,7 +147,7 @@ TEST(Chosen, IsTheFastestOrHasTheName) {
   }
 }
 
-// The trial itself, of every implementation that this processor has, the plain one among them.
+// The trial runs every implementation that this processor has, and the plain one is among them.
 TEST(Trial, TimesWhatItRuns) {
   std::vector<const step::Implementation*> able;
   for (const step::Implementation& one : implementations().all())
