@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Names and statements that anyone reads: no variable is called `of`, and a statement does one thing.
+"""Names, statements and comments that anyone reads: no variable is called `of`, a statement does one thing, and no
+sentence of a comment begins like a half sentence: with What, Of, Who, Whose, Whether or Which.
 
   words_test.py ROOT
   words_test.py --self-test
@@ -67,12 +68,24 @@ def does_something(part):
     return bool(part) and not DECLARATION.match(part) and not part.startswith("#") and bool(re.search(r"=|\+\+|--|\)$", part))
 
 
+HALF = re.compile(r"(?:^|[.:] )((?:What|Of|Who|Whose|Whether|Which)\b[^.]*)")
+
+
+def comments(text):
+    """Comments with lines of their own, each as one line, and the number of their first line."""
+    for found in re.finditer(r"(?:^[ \t]*//+[^\n]*\n)+", text, re.M):
+        lines = [re.sub(r"^\s*//+<?\s*", "", line) for line in found[0].splitlines()]
+        yield " ".join(lines), text.count("\n", 0, found.start()) + 1
+
+
 def offences(name, text):
     code = code_of(text)
 
     def place(at):
         return f"{name}:{code.count(chr(10), 0, at) + 1}"
     found = [f"{place(m.start())}: a variable is called `of`" for m in re.finditer(r"(?<!::)\bof\b(?!\s*\()", code)]
+    for comment, line in comments(text):
+        found += [f"{name}:{line}: a half sentence: {half[:60]}" for half in HALF.findall(comment)]
     for statement, end in statements(code):
         if len(several := parts(statement)) > 1 and all(map(does_something, several)):
             found.append(f"{place(end)}: a statement does {len(several)} things: {' '.join(statement.split())[:80]}")
@@ -85,11 +98,15 @@ def self_test():
             "UInt<16> energy, heat;", "T *const a = f(), *const b = g();", "sum += Pair<int, kTwo>(a).run();", "char c = 'o', d = ',';"]
     wrong = ["int of = 0;", "f(of);", "a = 0, b = 1;", "if (x) a = 0, ++b;", "f(1), g(2);", "else a.b[3] = 1, c->d += 2;", "f([&] { a = 1, b = 2; });",
              "case 3: a = 1, b = 2;", "for (int i : x) f(i), g(i);"]
+    halves = ["// What it holds.\n", "  // It holds.\n  // Of all, one.\n", "/// Whose bits.\n"]
+    for text in halves:
+        assert offences("x", text), text
+    fine += ["x();  // Of none\n", "// It is what it is.\n"]
     for text in fine:
         assert not offences("x", f"void f() {{ {text} }}"), (text, offences("x", f"void f() {{ {text} }}"))
     for text in wrong:
         assert offences("x", f"void f() {{ {text} }}"), text
-    print(f"all {len(wrong)} planted offences caught")
+    print(f"all {len(wrong) + len(halves)} planted offences caught")
 
 
 if __name__ == "__main__":
@@ -100,5 +117,5 @@ if __name__ == "__main__":
     files = [p for top in ("accuracy", "app", "bench", "examples", "hwmodel", "include", "kernel", "library", "measure", "render", "report", "tests")
              for p in sorted((root / top).rglob("*")) if p.suffix in (".h", ".cpp")]
     problems = [line for p in files for line in offences(p.relative_to(root).as_posix(), p.read_text())]
-    print("\n".join(problems) or f"{len(files)} files: no variable `of`, and one thing a statement")
+    print("\n".join(problems) or f"{len(files)} files: no variable `of`, and one thing a statement, no half sentence")
     sys.exit(bool(problems))

@@ -1,6 +1,6 @@
 // The reference, every instruction set and the judge draw the same bytes in random hostile pictures by seed.
 // The judge (tests/picture_judge) was written from docs/picture/definition.md alone, so it sees bugs of
-// render/rule that all others share. VOXMELT_PICTURE_SEED=N render_judge_test shows one picture again.
+// render/rule that all others share. VOXMELT_PICTURE_SEED=N in the environment shows one picture again.
 //
 // Bugs were planted in render/rule, and the judge found them: the weight below, not the nearest; a bisection
 // that keeps the old level; a root without the straight line; vectors of one bit more; the lamp's rays,
