@@ -87,7 +87,7 @@ Outcome compare(const Conditions& conditions, const std::vector<Ball>& balls, co
     Spread spread{};
     for (std::uint32_t sample = 1; sample <= 12; ++sample) {
       const std::uint32_t time = ball.steps * sample / 12;
-      trial.run_to(time * static_cast<std::uint32_t>(ball.scale.shorter));
+      trial.run_to(time * ball.scale.shorter);
       spread = spread_of(trial, ball.scale.finer);
       if (spread.liquid > 0) curve.points.push_back({1. * time, spread.radius});
     }

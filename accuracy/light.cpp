@@ -111,7 +111,7 @@ struct LitBall {
 // Spreads directions evenly over the sphere: equal steps of height, each turned by the golden angle.
 std::vector<Direction> spiral(int count) {
   std::vector<Direction> directions;
-  directions.reserve(static_cast<std::size_t>(count));
+  directions.reserve(count);
   for (int i = 0; i < count; ++i)
     directions.push_back(from_angles(std::acos(1 - (2.0 * i + 1) / count) * 180 / std::numbers::pi,
                                      360 * std::numbers::phi * i));

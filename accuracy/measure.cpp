@@ -10,12 +10,9 @@
 namespace voxmelt::accuracy {
 
 Columns::Columns(const state::Volume& volume)
-    : nx(volume.grid.x),
-      nz(volume.grid.z),
-      depth(static_cast<std::size_t>(nx) * static_cast<std::size_t>(nz)) {
+    : nx(volume.grid.x), nz(volume.grid.z), depth(static_cast<std::size_t>(nx) * nz) {
   for_each_cell(volume.grid, [&](int x, int y, int z) {
-    if (volume.liquid.test(x, y, z))
-      depth[static_cast<std::size_t>(z * nx + x)] += volume.amount[volume.at(x, y, z)] / kOne;
+    if (volume.liquid.test(x, y, z)) depth[z * nx + x] += volume.amount[volume.at(x, y, z)] / kOne;
   });
 }
 
@@ -58,7 +55,7 @@ std::vector<double> radial_profile(const Columns& columns) {
   std::vector<double> sum, count;
   for (int z = 0; z < columns.nz; ++z)
     for (int x = 0; x < columns.nx; ++x) {
-      const auto ring = static_cast<std::size_t>(std::lround(std::hypot(columns.x_of(x), columns.z_of(z))));
+      const std::size_t ring = std::lround(std::hypot(columns.x_of(x), columns.z_of(z)));
       if (ring >= sum.size()) {
         sum.resize(ring + 1);
         count.resize(ring + 1);

@@ -13,7 +13,7 @@ namespace voxmelt::accuracy {
 // columns.
 struct Columns {
   explicit Columns(const state::Volume& volume);
-  double at(int x, int z) const { return depth[static_cast<std::size_t>(z * nx + x)]; }
+  double at(int x, int z) const { return depth[z * nx + x]; }
   double x_of(int x) const { return x - (nx - 1) / 2.0; }
   double z_of(int z) const { return z - (nz - 1) / 2.0; }
 

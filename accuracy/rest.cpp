@@ -113,7 +113,7 @@ Outcome measure_fall(const Conditions& conditions) {
   const state::Volume start = block.volume();
   int wrong = 0;
   for (int fallen = 1; fallen <= 24; ++fallen) {
-    block.run_to(static_cast<std::uint32_t>(fallen));
+    block.run_to(fallen);
     for_each_cell(start.grid, [&](int x, int y, int z) {
       const int above = y + fallen;
       const int wanted = above < start.grid.y ? start.amount[start.at(x, above, z)] : 0;

@@ -51,7 +51,7 @@ double solid_angle(const state::Volume& volume, const std::array<double, 3>& eye
   // Parts nearer to the eye look larger, so the pixels reach further than the grid.
   const double reach = std::sqrt(dot(middle, middle));
   const int half = static_cast<int>(std::ceil(reach * distance / (distance - reach) / kPixel)) + 1;
-  const auto side = static_cast<std::size_t>(2 * half);
+  const std::size_t side = 2 * half;
   const auto place = [&](int pixel) { return (pixel - half + 0.5) * kPixel; };
   const auto pixel = [&](double at) {
     return std::clamp(static_cast<int>(at / kPixel + half), 0, 2 * half - 1);
@@ -74,7 +74,7 @@ double solid_angle(const state::Volume& volume, const std::array<double, 3>& eye
     }
     for (int row = pixel(bottom); row <= pixel(top); ++row)
       for (int column = pixel(left); column <= pixel(end); ++column) {
-        char& is = covered[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)];
+        char& is = covered[row * side + column];
         const double a = place(column), b = place(row);
         if (is != 0 || !meets(eye, plus(plus(plus({}, -1, back), a, right), b, up), low)) continue;
         is = 1;

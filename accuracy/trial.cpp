@@ -50,7 +50,7 @@ Trial::Trial(const Conditions& conditions, const std::string& scene_name, std::v
   warnings_ = std::move(scene.warnings);
   if (conditions.baseline) baseline_ = baseline_speed(scene.parameters, scene.initial);
   // On small grids threads cost more time than they save.
-  const auto cells = static_cast<std::int64_t>(scene.initial.grid.cells());
+  const std::int64_t cells = scene.initial.grid.cells();
   step::Tuning tuning;
   tuning.threads = conditions.threads_always;
   if (tuning.threads == 0)

@@ -24,8 +24,7 @@ constexpr std::size_t kLargePicture = std::size_t{8} << 20;  // bytes of a pictu
 std::string label_of(std::uint32_t step) { return fmt::format("step {}", step); }
 
 std::size_t frame_bytes(const scene::Camera& camera) {
-  return sizeof(render::Rgb) * static_cast<std::size_t>(camera.width) *
-         static_cast<std::size_t>(camera.height);
+  return sizeof(render::Rgb) * camera.width * camera.height;
 }
 
 render::Frames::Plan with_frame_bytes(render::Frames::Plan plan, const scene::Camera& camera) {

@@ -163,8 +163,7 @@ void write_report(const Common& common, const std::string& text) {
 }
 
 int thread_count(const Common& common) {
-  return common.threads > 0 ? common.threads
-                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return common.threads > 0 ? common.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
 }  // namespace voxmelt::app

@@ -137,7 +137,7 @@ SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& 
                               const scene::Camera& camera, const run::Simulation& ahead,
                               const hwmodel::MachineReport& report, const hwmodel::MachineOptions& options) {
   const step::Implementation& fast = find_implementation(command.common);
-  const std::uint32_t steps = command.steps, frames = static_cast<std::uint32_t>(command.picture.frames);
+  const std::uint32_t steps = command.steps, frames = command.picture.frames;
   const Software here =
       measure_software(scene, camera, setting_of(command.picture), ahead, fast, steps, steps / frames);
   const double n = frames;
@@ -190,7 +190,7 @@ hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Sc
 
 int verify_whole_machine(VerifyCommand command) {
   const PictureChoice& choice = command.picture;
-  if (command.steps % static_cast<std::uint32_t>(choice.frames) != 0)
+  if (command.steps % choice.frames != 0)
     throw UsageError(fmt::format("error: --frames {}: --steps {} is no multiple of it (--machine)",
                                  choice.frames, command.steps));
   const hwmodel::Preset preset =

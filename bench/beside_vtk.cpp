@@ -74,8 +74,7 @@ std::vector<double> errors(const Drawn& drawn) {
 void write_field(const Drawn& drawn, const std::string& file) {
   const auto& values = drawn.field.intensity();
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(values.data()),
-            static_cast<std::streamsize>(drawn.field.grid().cells() * sizeof(std::uint16_t)));
+  out.write(reinterpret_cast<const char*>(values.data()), drawn.field.grid().cells() * sizeof(std::uint16_t));
   if (!out.flush()) throw std::runtime_error("cannot write " + file);
 }
 

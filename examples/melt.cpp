@@ -9,7 +9,7 @@
 int main(int argc, char** argv) try {
   if (argc != 3) return std::cerr << "melt SCENE.toml STEPS\n", 2;
   voxmelt::Simulation simulation(argv[1]);
-  simulation.step(static_cast<std::uint32_t>(std::atoi(argv[2])));
+  simulation.step(std::atoi(argv[2]));
 
   std::cout << simulation.title() << "\nstep " << std::dec << simulation.steps_done() << " digest "
             << std::hex << simulation.digest() << '\n';

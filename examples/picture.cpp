@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   for (int k = 0; k < std::atoi(argv[2]); ++k) {
     simulation.draw("picture_" + std::to_string(k) + ".png", picture);
     *picture.azimuth += 10;
-    simulation.step(static_cast<std::uint32_t>(std::atoi(argv[3])));
+    simulation.step(std::atoi(argv[3]));
   }
   return 0;
 } catch (const voxmelt::Error& error) {

@@ -28,7 +28,7 @@ int checked_threads(int threads) {
   if (threads < 0 || threads > kMostThreads)
     throw InputError("Options: error: threads = " + std::to_string(threads) + " is outside 0.." +
                      std::to_string(kMostThreads));
-  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
 }  // namespace

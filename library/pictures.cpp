@@ -69,7 +69,7 @@ Frame frame_of(const render::Image& image, int alignment) {
   Frame frame{image.width, image.height, (row + unit - 1) / unit * unit, {}, {}, {}};
   frame.rgb.resize(frame.stride * height);
   for (int y = 0; y < image.height; ++y)
-    std::memcpy(frame.rgb.data() + static_cast<std::size_t>(y) * frame.stride, image.at(0, y).data(), row);
+    std::memcpy(frame.rgb.data() + y * frame.stride, image.at(0, y).data(), row);
   return frame;
 }
 

@@ -61,7 +61,7 @@ template <baseline::Variant variant>
 Steps BaselineRuns::run() const {
   using enum step::Phase;
   baseline::Baseline<float, variant> program(start_, parameters_);
-  Steps steps(static_cast<std::size_t>(lead_steps_ + steps_));
+  Steps steps(lead_steps_ + steps_);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (has_heat_) timed(steps[i], heat, [&] { program.heat(irradiance_); });
     timed(steps[i], gravity, [&] { program.gravity(); });

@@ -21,7 +21,7 @@ constexpr int kCheckedSide = kPictureSide / 4;
 
 std::atomic<std::int64_t> rays{0};
 void draw_and_count(const render::PictureData& data, render::Places places, render::PressedLight to) {
-  rays += static_cast<std::int64_t>(places.count);
+  rays += places.count;
   render::best_packets().draw(data, places, to);
 }
 

@@ -33,7 +33,7 @@ double best_rate(int threads, const Rounds& trials, const std::function<double(i
   const RoundClock clock(trials);
   for (int trial = 0; clock.more(trial); ++trial) {
     std::barrier ready(threads);
-    std::vector<double> rates(static_cast<std::size_t>(threads));
+    std::vector<double> rates(threads);
     const auto work = [&](int thread) {
       piece(thread);  // warms up
       ready.arrive_and_wait();
@@ -43,7 +43,7 @@ double best_rate(int threads, const Rounds& trials, const std::function<double(i
         done += piece(thread);
         seconds = seconds_since(start);
       }
-      rates[static_cast<std::size_t>(thread)] = done / seconds;
+      rates[thread] = done / seconds;
     };
     std::vector<std::jthread> others;
     for (int thread = 1; thread < threads; ++thread) others.emplace_back(work, thread);
@@ -111,8 +111,8 @@ std::size_t Machine::rounded(std::size_t footprint) {
 Bandwidth Machine::measure(std::size_t footprint, int threads) const {
   // There is one block of whole cache lines; every thread has its own part of it.
   std::vector<Line> block(footprint / sizeof(Line));
-  const std::size_t part = block.size() / static_cast<std::size_t>(threads) / 2 * 2;
-  const auto own = [&](int thread) { return block.data() + static_cast<std::size_t>(thread) * part; };
+  const std::size_t part = block.size() / threads / 2 * 2;
+  const auto own = [&](int thread) { return block.data() + thread * part; };
   const auto bytes = static_cast<double>(part * sizeof(Line));
   const LaneLoops widest = widest_loops();
 

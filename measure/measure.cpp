@@ -55,7 +55,7 @@ Medians Fastest::median() const {
     std::vector<double> all;
     for (const Seconds& one : means_) all.push_back((one.*part)());
     if (all.empty()) return 0.0;
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    const auto middle = all.begin() + all.size() / 2;
     std::nth_element(all.begin(), middle, all.end());
     return *middle;
   };

@@ -49,9 +49,8 @@ std::vector<Needed> needed_vectors(const Workload& workload, const std::vector<i
       simulation.run_phase(phase);
       if (phase == step::Phase::source) continue;
       for (std::size_t k = 0; k < lanes.size(); ++k)
-        part_of(result[k], phase) += static_cast<double>(changed_vectors(
-                                         before, simulation.volume(), static_cast<std::size_t>(lanes[k]))) /
-                                     workload.steps;
+        part_of(result[k], phase) +=
+            static_cast<double>(changed_vectors(before, simulation.volume(), lanes[k])) / workload.steps;
     }
     simulation.end_step();
   }

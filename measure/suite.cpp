@@ -89,8 +89,7 @@ Suite::Suite(Plan plan, Tell tell) : plan_(std::move(plan)), tell_(std::move(tel
     for (const cpu::InstructionSetRow& row : cpu::kInstructionSets)
       if (row.supported()) findings_.machine.lane_rates(row.set, threads);
     if (findings_.machine_text.l2_bytes > 0)
-      findings_.machine.bandwidth(findings_.machine_text.l2_bytes / 2 * static_cast<std::size_t>(threads),
-                                  threads);
+      findings_.machine.bandwidth(findings_.machine_text.l2_bytes / 2 * threads, threads);
     findings_.machine.bandwidth(std::size_t{1} << 29, threads);
   }
 }
@@ -118,7 +117,7 @@ std::vector<Case> Suite::cases_of(const Workload& workload, const Result& result
           fmt::format("{}/{}/{}/threads:{}", name_of(subject), one.implementation, one.workload, one.threads);
       one.judge = workload.judge;
       one.grid = workload.start.grid;
-      one.cells = static_cast<std::int64_t>(workload.start.grid.cells());
+      one.cells = workload.start.grid.cells();
       one.hot = workload.parameters.heat.enabled;
       one.heat_neighbours = workload.parameters.heat.neighbours;
       one.active = active_cells(workload, heat);

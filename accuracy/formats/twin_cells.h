@@ -59,7 +59,7 @@ class Rows {
   }
 
  private:
-  std::size_t place(int y, int z) const { return static_cast<std::size_t>(z * grid_.y + y); }
+  std::size_t place(int y, int z) const { return z * grid_.y + y; }
   state::Grid grid_;
   std::vector<Interval> rows_;
 };
@@ -71,7 +71,7 @@ struct Cells {
 
   explicit Cells(const state::Volume& start)
       : grid(start.grid), line(grid.x + 2), slice(line * (grid.y + 2)), masks(start) {
-    const auto count = static_cast<std::size_t>(slice) * static_cast<std::size_t>(grid.z + 2);
+    const auto count = static_cast<std::size_t>(slice) * (grid.z + 2);
     kind.assign(count, kInert);
     amount.resize(count);
     energy.resize(count);
@@ -91,15 +91,11 @@ struct Cells {
         }
   }
 
-  std::size_t at(int x, int y, int z) const {
-    return static_cast<std::size_t>((z + 1) * slice + (y + 1) * line + x + 1);
-  }
+  std::size_t at(int x, int y, int z) const { return (z + 1) * slice + (y + 1) * line + x + 1; }
   std::ptrdiff_t way(rule::Offset d) const {
     return d.dx + std::ptrdiff_t{line} * d.dy + std::ptrdiff_t{slice} * d.dz;
   }
-  static std::size_t moved(std::size_t i, std::ptrdiff_t way) {
-    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + way);
-  }
+  static std::size_t moved(std::size_t i, std::ptrdiff_t way) { return i + way; }
 
   bool blocked(std::size_t i) const { return (kind[i] & (kSolid | kInert)) != 0; }
   bool matter(std::size_t i) const { return (kind[i] & (kSolid | kLiquid)) != 0; }
@@ -107,15 +103,15 @@ struct Cells {
   bool is_air(std::size_t i) const { return kind[i] == kAir; }
 
   Rows rows() const {
-    std::vector<Rows::Interval> own(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z));
+    std::vector<Rows::Interval> own(static_cast<std::size_t>(grid.y) * grid.z);
     for (int z = 0; z < grid.z; ++z)
       for (int y = 0; y < grid.y; ++y) {
         const std::size_t first = at(0, y, z);
         int begin = 0, end = grid.x;
-        while (begin + 8 <= end && none_of_eight(first + static_cast<std::size_t>(begin))) begin += 8;
-        while (begin < end && !matter(first + static_cast<std::size_t>(begin))) ++begin;
-        while (begin < end && !matter(first + static_cast<std::size_t>(end - 1))) --end;
-        own[static_cast<std::size_t>(z * grid.y + y)] = {begin, end};
+        while (begin + 8 <= end && none_of_eight(first + begin)) begin += 8;
+        while (begin < end && !matter(first + begin)) ++begin;
+        while (begin < end && !matter(first + (end - 1))) --end;
+        own[z * grid.y + y] = {begin, end};
       }
     return Rows(grid, std::move(own));
   }

@@ -218,7 +218,7 @@ class FlowRules {
     for (std::size_t d = 0; d < static_cast<std::size_t>(law_.neighbours); ++d) {
       const Flow mine = given(cells, i, d);
       const std::size_t j = Cells<Format>::moved(i, way_[d]);
-      const Flow theirs = given(cells, j, static_cast<std::size_t>(rule::kOpposite[d]));
+      const Flow theirs = given(cells, j, rule::kOpposite[d]);
       out = {out.amount + mine.amount, out.energy + mine.energy};
       in = {in.amount + theirs.amount, in.energy + theirs.energy};
       content += product(theirs.amount, cells.heat[j]);

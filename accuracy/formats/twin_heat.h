@@ -113,8 +113,8 @@ class HeatRules {
                       Format::kMost - h);
       if (const int axes = heat_.air ? exposed_axes(cells, i) : 0; axes > 0) {
         constexpr std::array<std::int64_t, 4> kArea{0, 4096, 5793, 7094};
-        const std::int64_t rate = (heat_.air_exchange * kArea[static_cast<std::size_t>(axes)]) >> 12;
-        const Wide air = Format::of(heat_.air_temperature[static_cast<std::size_t>(y)]);
+        const std::int64_t rate = (heat_.air_exchange * kArea[axes]) >> 12;
+        const Wide air = Format::of(heat_.air_temperature[y]);
         h += std::min(Format::part(air - temperature(h), rate, dither), Format::kMost - h);
       }
       cells.heat[i] = static_cast<Value>(h);

@@ -36,7 +36,7 @@ ExactField::ExactField(const render::PictureScene& scene) {
   const picture::Vector n = scene.levels.cells();
   cells_ = {static_cast<int>(n.x), static_cast<int>(n.y), static_cast<int>(n.z)};
   std::size_t size = 1;
-  for (std::size_t a = 0; a < 3; ++a) size *= side_[a] = static_cast<std::size_t>(cells_[a] + 2 * kBorder);
+  for (std::size_t a = 0; a < 3; ++a) size *= side_[a] = cells_[a] + 2 * kBorder;
   levels_.assign(size, static_cast<float>(picture::kAir));
   matter_.resize(size);
   for (int z = 0; z < cells_[2]; ++z)
@@ -64,9 +64,9 @@ void ExactField::find_distances() {
   const auto each = [&](const auto& work) {
     for (int z = -1; z < cells_[2]; ++z)
       for (int y = -1; y < cells_[1]; ++y)
-        for (int x = -1; x < cells_[0]; ++x) work(static_cast<std::ptrdiff_t>(at(x, y, z)));
+        for (int x = -1; x < cells_[0]; ++x) work(at(x, y, z));
   };
-  const auto far = [&](std::ptrdiff_t i) -> std::uint8_t& { return far_[static_cast<std::size_t>(i)]; };
+  const auto far = [&](std::ptrdiff_t i) -> std::uint8_t& { return far_[i]; };
   const auto nearer = [&](std::ptrdiff_t i, std::ptrdiff_t from) {
     far(i) = static_cast<std::uint8_t>(std::min<int>(far(i), far(from) + 1));
   };
@@ -81,7 +81,7 @@ void ExactField::find_distances() {
   for (int z = cells_[2] - 1; z >= -1; --z)
     for (int y = cells_[1] - 1; y >= -1; --y)
       for (int x = cells_[0] - 1; x >= -1; --x) {
-        const auto i = static_cast<std::ptrdiff_t>(at(x, y, z));
+        const std::ptrdiff_t i = at(x, y, z);
         for (const std::ptrdiff_t to : before) nearer(i, i - to);
       }
 }

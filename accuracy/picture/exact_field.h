@@ -38,9 +38,7 @@ class ExactField {
   static constexpr int kBorder = 2;
   // Indexes cells -2 .. n + 1.
   std::size_t at(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z + kBorder) * side_[1] + static_cast<std::size_t>(y + kBorder)) *
-               side_[0] +
-           static_cast<std::size_t>(x + kBorder);
+    return ((z + kBorder) * side_[1] + (y + kBorder)) * side_[0] + (x + kBorder);
   }
   void find_distances();
   Cubic levels_between(const std::array<int, 3>& cell, Exact from, Exact to) const;

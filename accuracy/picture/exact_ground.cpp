@@ -26,7 +26,7 @@ Between between(double p, int count) {
 
 double linear(const std::vector<double>& table, double p) {
   const Between i = between(p, static_cast<int>(table.size()));
-  return blend(table[static_cast<std::size_t>(i.low)], table[static_cast<std::size_t>(i.high)], i.part);
+  return blend(table[i.low], table[i.high], i.part);
 }
 
 }  // namespace
@@ -39,24 +39,24 @@ ExactGround::ExactGround(const render::PictureScene& scene) : texels_(scene.grou
   if (scene.ground.empty()) return;
 
   highest_ = static_cast<double>(scene.ground.highest()) / picture::kHeight;
-  row_ = static_cast<std::size_t>(cells_[0] + 2);
+  row_ = cells_[0] + 2;
   const auto columns = [&](const render::ColumnHeights& from) {
     Heights to;
     for (int z = -1; z <= cells_[2]; ++z)
       for (int x = -1; x <= cells_[0]; ++x)
-        to.push_back(static_cast<double>(from[static_cast<std::size_t>(
-                         std::clamp(z, 0, cells_[2] - 1) * cells_[0] + std::clamp(x, 0, cells_[0] - 1))]) /
-                     picture::kHeight);
+        to.push_back(
+            static_cast<double>(
+                from[std::clamp(z, 0, cells_[2] - 1) * cells_[0] + std::clamp(x, 0, cells_[0] - 1)]) /
+            picture::kHeight);
     return to;
   };
   drawn_ = columns(scene.ground.drawn());
   bare_ = columns(scene.ground.bare());
-  blocks_x_ = static_cast<std::size_t>(cells_[0] / kBlock + 1);
-  block_highest_.assign(blocks_x_ * static_cast<std::size_t>(cells_[2] / kBlock + 1), 0);
+  blocks_x_ = cells_[0] / kBlock + 1;
+  block_highest_.assign(blocks_x_ * (cells_[2] / kBlock + 1), 0);
   for (int z = -1; z < cells_[2]; ++z)
     for (int x = -1; x < cells_[0]; ++x) {
-      double& highest = block_highest_[static_cast<std::size_t>((z + 1) / kBlock) * blocks_x_ +
-                                       static_cast<std::size_t>((x + 1) / kBlock)];
+      double& highest = block_highest_[((z + 1) / kBlock) * blocks_x_ + ((x + 1) / kBlock)];
       highest = std::max(
           {highest, drawn_[at(x, z)], drawn_[at(x + 1, z)], drawn_[at(x, z + 1)], drawn_[at(x + 1, z + 1)]});
     }
@@ -81,9 +81,7 @@ double ExactGround::height(const Heights& heights, double x, double z) const {
                blend(heights[at(i.low, k.high)], heights[at(i.high, k.high)], i.part), k.part);
 }
 
-double ExactGround::highest_of_block(int x, int z) const {
-  return block_highest_[static_cast<std::size_t>(z) * blocks_x_ + static_cast<std::size_t>(x)];
-}
+double ExactGround::highest_of_block(int x, int z) const { return block_highest_[z * blocks_x_ + x]; }
 
 // Gives how deep two places and the line between them lie below the drawn heights of a lower column.
 Cubic ExactGround::depths_between(const std::array<int, 2>& cell, Exact from, Exact to) const {
@@ -177,7 +175,7 @@ ExactGround::Surface ExactGround::surface(Exact p, Face face) const {
                 z = between(p.z * texels_per_cell_, cells_[2] * texels_per_cell_);
   Exact color, bump;
   const auto add = [&](int i, int k, double weight) {
-    const picture::Texel& texel = texels_[static_cast<std::size_t>(k * cells_[0] * texels_per_cell_ + i)];
+    const picture::Texel& texel = texels_[k * cells_[0] * texels_per_cell_ + i];
     color = color + exact({texel.red, texel.green, texel.blue}, picture::kColor) * weight;
     bump = bump + exact({texel.bump_x, 0, texel.bump_z}, 1 << picture::kBumpBits) * weight;
   };

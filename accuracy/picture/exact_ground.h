@@ -34,9 +34,7 @@ class ExactGround {
  private:
   using Heights = std::vector<double>;  // for columns -1 .. n, which repeat the nearest of the grid, in cells
   static constexpr int kBlock = 8;
-  std::size_t at(int x, int z) const {
-    return static_cast<std::size_t>(z + 1) * row_ + static_cast<std::size_t>(x + 1);
-  }
+  std::size_t at(int x, int z) const { return (z + 1) * row_ + (x + 1); }
   double height(const Heights& heights, double x, double z) const;
   double highest_of_block(int x, int z) const;
   Cubic depths_between(const std::array<int, 2>& cell, Exact from, Exact to) const;

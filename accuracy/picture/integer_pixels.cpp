@@ -72,7 +72,7 @@ picture::Color IntegerPixels::light(std::int64_t across, std::int64_t down) cons
   } else {
     return color;
   }
-  for (std::int32_t& c : color) c = kTone[static_cast<std::size_t>(std::clamp(c, 0, picture::kBrightest))];
+  for (std::int32_t& c : color) c = kTone[std::clamp(c, 0, picture::kBrightest)];
   return color;
 }
 
@@ -84,8 +84,7 @@ render::Rgb IntegerPixels::pixel(int x, int y, std::span<const picture::Sub> sam
   }
   const auto count = static_cast<std::int32_t>(samples.size());
   render::Rgb bytes{};
-  for (std::size_t c = 0; c < 3; ++c)
-    bytes[c] = kBytes[static_cast<std::size_t>((sum[c] + count / 2) / count)];
+  for (std::size_t c = 0; c < 3; ++c) bytes[c] = kBytes[(sum[c] + count / 2) / count];
   return bytes;
 }
 

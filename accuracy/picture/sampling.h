@@ -20,8 +20,7 @@ using Places = std::span<const picture::Sub>;
 // The converged picture takes these 64 samples.
 inline constexpr std::array<picture::Sub, 64> kLattice = [] {
   std::array<picture::Sub, 64> values{};
-  for (std::int32_t i = 0; i < 64; ++i)
-    values[static_cast<std::size_t>(i)] = {8 * (i % 8) + 4, 8 * (i / 8) + 4};
+  for (std::int32_t i = 0; i < 64; ++i) values[i] = {8 * (i % 8) + 4, 8 * (i / 8) + 4};
   return values;
 }();
 
@@ -61,13 +60,13 @@ struct Sampled {
 template <class Pixel>
 Sampled sampled(int width, int height, const Sampling& sampling, const Pixel& pixel, cpu::Workers& workers) {
   Sampled result{render::Image(width, height), 0};
-  std::vector<std::size_t> counts(static_cast<std::size_t>(height));
+  std::vector<std::size_t> counts(height);
   const auto pass = [&](Places places, const auto& wanted) {
     workers.run(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         if (!wanted(x, y)) continue;
         result.image.at(x, y) = pixel(x, y, places);
-        counts[static_cast<std::size_t>(y)] += places.size();
+        counts[y] += places.size();
       }
     });
   };

@@ -111,7 +111,7 @@ void TokenComparison::compare(std::size_t channel, bool enters, const Token& exp
   const auto [one, other] =
       std::mismatch(expected.values.begin(), expected.values.end(), actual.values.begin());
   if (one != expected.values.end()) {
-    const auto at = static_cast<std::size_t>(one - expected.values.begin());
+    const std::size_t at = one - expected.values.begin();
     difference.wire = type.wires[at % type.wires.size()].name;
     difference.lane = static_cast<int>(at / type.wires.size());
     difference.expected = *one;

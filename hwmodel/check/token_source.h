@@ -27,7 +27,7 @@ struct TokenType {
   // Writes the values of a token: those of lane 0 in the order of the wires, then of lane 1, ...
   std::function<void(const void* token, std::int64_t* values)> read;
 
-  std::size_t values() const { return static_cast<std::size_t>(lanes) * wires.size(); }
+  std::size_t values() const { return lanes * wires.size(); }
 };
 
 struct TokenChannel {

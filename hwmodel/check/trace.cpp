@@ -90,10 +90,9 @@ class TraceReader {
   }
 
   std::size_t index_of(int number) const {
-    return static_cast<std::size_t>(
-        std::find_if(trace_.channels.begin(), trace_.channels.end(),
-                     [&](const TokenChannel& one) { return one.number == number; }) -
-        trace_.channels.begin());
+    return std::find_if(trace_.channels.begin(), trace_.channels.end(),
+                        [&](const TokenChannel& one) { return one.number == number; }) -
+           trace_.channels.begin();
   }
 
   std::istream& from_;
@@ -136,9 +135,9 @@ TraceRecorder::TraceRecorder(TokenSource& source) : source_(source), channels_(s
   trace_.channels = channels_;
   for (TokenChannel& channel : trace_.channels) {
     channel.type.read = {};
-    const auto number = static_cast<std::size_t>(channel.number);
+    const std::size_t number = channel.number;
     if (number >= by_number_.size()) by_number_.resize(number + 1);
-    by_number_[number] = static_cast<std::size_t>(&channel - trace_.channels.data());
+    by_number_[number] = &channel - trace_.channels.data();
   }
   source.probe(this);
 }
@@ -147,7 +146,7 @@ void TraceRecorder::cycle(int channel, const Sides& sides, const void* in, const
   const std::int64_t now = source_.cycle();
   if (now < last_) ++train_;
   last_ = now;
-  const std::size_t at = by_number_[static_cast<std::size_t>(channel)];
+  const std::size_t at = by_number_[channel];
   if (sides.put) note(at, true, in);
   if (sides.get) note(at, false, out);
 }

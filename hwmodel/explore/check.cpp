@@ -18,7 +18,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   const PartList& parts = swept.parts[point.parts];
   Checked checked;
   checked.point = at;
-  checked.steps = steps == 0 ? static_cast<std::uint32_t>(point.hw.cascade) : steps;
+  checked.steps = steps == 0 ? point.hw.cascade : steps;
   const RunTime time = time_of(parts, point.hw, point.clock_mhz, question, checked.steps);
   checked.predicted = time.cycles;
   checked.predicted_on = time.on_memory;

@@ -14,8 +14,8 @@ void sum_up(std::vector<std::int64_t>& of_blocks) {
 
 // Counts for each column the bits of its lit tokens.
 std::vector<std::int32_t> lit_bits(const Irradiance& field, const Shape& shape) {
-  const auto blocks = static_cast<std::size_t>(shape.grid_blocks());
-  std::vector<std::int32_t> bits(blocks * static_cast<std::size_t>(shape.grid.z));
+  const std::size_t blocks = shape.grid_blocks();
+  std::vector<std::int32_t> bits(blocks * shape.grid.z);
   for (int z = 0; z < shape.grid.z; ++z)
     for (int y = 0; y < shape.grid.y; ++y) {
       const std::uint16_t* row = field.row(y, z);
@@ -23,7 +23,7 @@ std::vector<std::int32_t> lit_bits(const Irradiance& field, const Shape& shape) 
         const auto dark = std::count(row + x, row + std::min(x + shape.lanes, shape.grid.x), 0);
         const std::int64_t lit = std::min(shape.lanes, shape.grid.x - x) - dark;
         if (lit > 0)
-          bits[static_cast<std::size_t>(z) * blocks + static_cast<std::size_t>(x / shape.lanes)] +=
+          bits[z * blocks + (x / shape.lanes)] +=
               static_cast<std::int32_t>(IrradianceStream::kWordBits * (1 + mask_words(shape.lanes) + lit));
       }
     }
@@ -37,7 +37,7 @@ Content content_of(const Design& design, const Irradiance* irradiance, const sta
   if (irradiance != nullptr) {
     content.irradiance_bits = IrradianceStream(*irradiance, design.shape).bits();
     content.lit_columns = lit_bits(*irradiance, design.shape);
-    const auto blocks = static_cast<std::size_t>(design.shape.grid_blocks());
+    const std::size_t blocks = design.shape.grid_blocks();
     content.irradiance_before.resize(blocks);
     for (std::size_t column = 0; column < content.lit_columns.size(); ++column)
       content.irradiance_before[column % blocks] += content.lit_columns[column];
@@ -48,12 +48,11 @@ Content content_of(const Design& design, const Irradiance* irradiance, const sta
     coded.store(*volume);
     content.coded_bits = coded.moved_bits();
     const int blocks = coded.layout().blocks();
-    content.coded_before.resize(static_cast<std::size_t>(blocks));
+    content.coded_before.resize(blocks);
     for (std::int64_t column = 0; column < coded.layout().columns(); ++column) {
       content.coded_columns.push_back(
           static_cast<std::int32_t>(CodeLayout::up(coded.bits_of(column)) / CodeLayout::kBurstBits));
-      content.coded_before[static_cast<std::size_t>(column % blocks)] +=
-          CodeLayout::up(coded.bits_of(column));
+      content.coded_before[column % blocks] += CodeLayout::up(coded.bits_of(column));
     }
     sum_up(content.coded_before);
   }

@@ -24,7 +24,7 @@ struct Content {
 
   static std::int64_t between(const std::vector<std::int64_t>& before, int first, int end) {
     if (before.empty()) return 0;
-    return before[static_cast<std::size_t>(end)] - before[static_cast<std::size_t>(first)];
+    return before[end] - before[first];
   }
 };
 

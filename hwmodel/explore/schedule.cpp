@@ -57,7 +57,7 @@ void add_columns(Train& train, const Design& design, const Configuration& c, con
     const int first = shape.first_block(pass.tile);
     for (int z = 0; z < shape.grid.z; ++z)
       for (int block = first; block < first + shape.blocks(); ++block) {
-        const auto at = static_cast<std::size_t>(z * shape.grid_blocks() + block);
+        const std::size_t at = z * shape.grid_blocks() + block;
         const double bursts = c.coded ? content.coded_columns[at] : all / CodeLayout::kBurstBits;
         const bool owned = shape.owns(pass.tile, block * shape.lanes);
         train.placement.work.columns.push_back({bursts, owned ? bursts : 0});
@@ -80,10 +80,10 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
     if (!reached) before += wait;
   }
   std::vector<std::size_t> delays;
-  delays.reserve(static_cast<std::size_t>(pass.steps));
+  delays.reserve(pass.steps);
   const auto column = static_cast<double>(c.interval() * design.shape.column());
   for (int t = 0; t < pass.steps; ++t)
-    delays.push_back(static_cast<std::size_t>(std::llround(static_cast<double>(t * step + before) / column)));
+    delays.push_back(std::llround(static_cast<double>(t * step + before) / column));
   return delays;
 }
 
@@ -100,7 +100,7 @@ void add_feeds(Train& train, const Design& design, const Configuration& c, const
       const int first = shape.first_block(pass.tile);
       for (int z = 0; z < shape.grid.z; ++z)
         for (int block = first; block < first + shape.blocks(); ++block) {
-          const auto at = static_cast<std::size_t>(z * shape.grid_blocks() + block);
+          const std::size_t at = z * shape.grid_blocks() + block;
           const bool works = static_cast<int>(t) < pass.steps;
           used.push_back(works ? static_cast<double>(content.lit_columns[at]) / CodeLayout::kBurstBits : 0);
           all += used.back();

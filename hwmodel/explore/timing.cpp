@@ -33,7 +33,7 @@ class Delay final : public Stage {
 };
 
 std::size_t token_at(const CodeLayout& layout, const Place& place) {
-  return static_cast<std::size_t>(layout.column_of(place) * layout.height() + place.y);
+  return layout.column_of(place) * layout.height() + place.y;
 }
 
 // Says which tokens are air, because stages that compute nothing cannot. They are as before the step that
@@ -44,8 +44,8 @@ class Told final : public CodeFault {
 
   void begin_train(const Train& train) { train_ = &train; }
   void judged(std::int64_t pass, const Place& place, const Cell* /*lanes*/, bool& air) override {
-    const Pass& done = train_->list[static_cast<std::size_t>(pass)];
-    air = !(*run_.stored(done.first + static_cast<std::uint32_t>(done.steps)))[token_at(layout_, place)];
+    const Pass& done = train_->list[pass];
+    air = !(*run_.stored(done.first + done.steps))[token_at(layout_, place)];
   }
   void stored(std::int64_t, const Place&, const Cell*, std::int64_t&) override {}
   void ended(std::int64_t, const Place&, std::uint64_t*) override {}

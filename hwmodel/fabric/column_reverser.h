@@ -17,10 +17,7 @@ namespace voxmelt::hwmodel {
 template <class Word>
 class ColumnReverser {
  public:
-  ColumnReverser(int lanes, std::int64_t depth)
-      : lanes_(static_cast<std::size_t>(lanes)),
-        depth_(static_cast<std::size_t>(depth)),
-        words_(lanes_ * depth_) {}
+  ColumnReverser(int lanes, std::int64_t depth) : lanes_(lanes), depth_(depth), words_(lanes_ * depth_) {}
 
   // Makes the next exchange the first of a column. The old contents of the memory are of no use then.
   void restart() {
@@ -33,7 +30,7 @@ class ColumnReverser {
   // end.
   void exchange(const Word* in, Word* out) {
     if (address_ >= depth_) [[unlikely]]
-      throw AddressError(static_cast<std::int64_t>(address_), static_cast<std::int64_t>(depth_));
+      throw AddressError(address_, depth_);
     Word* slot = &words_[address_ * lanes_];
     std::copy(slot, slot + lanes_, out);
     std::copy(in, in + lanes_, slot);
@@ -51,7 +48,7 @@ class ColumnReverser {
 
   // Returns the token that the n-th exchange will give. Planted faults call it at the begin of a column.
   const Word* will_give(std::int64_t n) const {
-    const std::size_t from = static_cast<std::size_t>(n);
+    const std::size_t from = n;
     return &words_[(upwards_ ? address_ + from : address_ - from) * lanes_];
   }
   // Keeps the address from changing direction, so that the column leaves as it came. A planted fault calls it

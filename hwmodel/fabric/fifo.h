@@ -54,9 +54,9 @@ class Fifo {
   Fifo(std::string name, int channel, int lanes, int depth, std::uint64_t stall_seed)
       : name_(std::move(name)),
         channel_(channel),
-        lanes_(static_cast<std::size_t>(lanes)),
+        lanes_(lanes),
         depth_(depth),
-        words_(lanes_ * static_cast<std::size_t>(depth)),
+        words_(lanes_ * depth),
         occupancy_(static_cast<std::size_t>(depth) + 1),
         stall_seed_(stall_seed) {
     begin_pass(0);
@@ -101,7 +101,7 @@ class Fifo {
   void begin_pass(std::uint64_t pass) {
     entered_ = left_ = 0;
     stall_ = {};
-    stalls_ = StallInjector(stall_seed_, static_cast<std::uint64_t>(channel_), pass);
+    stalls_ = StallInjector(stall_seed_, channel_, pass);
   }
   void watch(FifoWatcher<Word>* watcher) { watcher_ = watcher; }
   void probe(ChannelProbe* probe) { probe_ = probe; }  // null: no probe
@@ -118,7 +118,7 @@ class Fifo {
  private:
   Word* slot(std::size_t at) { return words_.data() + at * lanes_; }
   std::size_t after(std::size_t at) const { return at + 1 == static_cast<std::size_t>(depth_) ? 0 : at + 1; }
-  std::size_t before(std::size_t at) const { return (at == 0 ? static_cast<std::size_t>(depth_) : at) - 1; }
+  std::size_t before(std::size_t at) const { return (at == 0 ? depth_ : at) - 1; }
 
   void end_put() {
     if (watcher_ != nullptr) watcher_->entered(channel_, entered_, slot(tail_));

@@ -78,9 +78,7 @@ void Simulation::leave() {
   sc_core::sc_default_global_context = outer_default_;
 }
 
-std::int64_t Simulation::cycle() const {
-  return static_cast<std::int64_t>(own_->time_stamp().value() / kPeriod);
-}
+std::int64_t Simulation::cycle() const { return own_->time_stamp().value() / kPeriod; }
 
 void Simulation::begin(Part& part) {
   part.works_ = true;

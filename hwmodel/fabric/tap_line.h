@@ -24,8 +24,7 @@ class TapLine {
  public:
   TapLine() = default;
   // Tokens leave `delay` shifts after they came.
-  TapLine(int lanes, std::size_t delay)
-      : lanes_(static_cast<std::size_t>(lanes)), slots_(delay + 1), words_(slots_ * lanes_) {}
+  TapLine(int lanes, std::size_t delay) : lanes_(lanes), slots_(delay + 1), words_(slots_ * lanes_) {}
 
   // Moves everything on by one token. The new token (tap 0) is blank.
   void shift() {
@@ -37,7 +36,7 @@ class TapLine {
   // Returns the lanes of the token that came `delay` shifts ago (0: the newest), for reading and writing.
   Word* tap(std::size_t delay) {
     if (delay >= slots_) [[unlikely]]
-      throw AddressError(static_cast<std::int64_t>(delay), static_cast<std::int64_t>(slots_));
+      throw AddressError(delay, slots_);
     const std::size_t slot = newest_ >= delay ? newest_ - delay : newest_ + slots_ - delay;
     return &words_[slot * lanes_];
   }

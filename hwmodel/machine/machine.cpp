@@ -120,7 +120,7 @@ class Run {
     VerifyOptions steps = options_.steps;
     steps.simulation = &simulation_;
     steps.memory = &streams_;
-    steps.visit_every = steps.steps / static_cast<std::uint32_t>(options_.picture.frames);
+    steps.visit_every = steps.steps / options_.picture.frames;
     steps.visit = [this](const state::Volume& volume, const VerifyReport& done) {
       return visit(volume, done);
     };

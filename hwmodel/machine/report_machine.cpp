@@ -103,7 +103,7 @@ std::string table_of(const MachineReport& report, const MachineOptions& options)
                         period.together / n, period.overlapped() / n);
   };
   for (const Period& period : report.periods) row(std::to_string(period.step), period, 1);
-  const auto frames = static_cast<std::int64_t>(report.periods.size());
+  const std::int64_t frames = report.periods.size();
   if (frames == 0) return text;
   row("mean", sum, frames);
   text += fmt::format("before: upload of everything {} bytes, {} cycles; the first frame {} cycles\n",
@@ -116,7 +116,7 @@ std::string table_of(const MachineReport& report, const MachineOptions& options)
                       report.state_bytes, report.irradiance_bytes, report.pictures.memory_bytes);
 
   const auto n = static_cast<double>(frames);
-  const double steps = static_cast<double>(report.steps.steps);
+  const double steps = report.steps.steps;
   const auto rates = [&](const char* name, std::int64_t cycles) {
     text += fmt::format("{:<12}{:.1f} frames and {:.1f} steps a second at {} MHz\n", name,
                         rate(n, cycles, options.clock_mhz()), rate(steps, cycles, options.clock_mhz()),
@@ -152,7 +152,7 @@ Json json_of(const MachineReport& report, const MachineOptions& options) {
   for (const Period& period : report.periods) json["periods"].push_back(json_of(period));
   const Period sum = report.sum();
   const auto n = static_cast<double>(report.periods.size());
-  const auto steps = static_cast<double>(report.steps.steps);
+  const double steps = report.steps.steps;
   const auto rates = [&](std::int64_t cycles) {
     return Json{{"frames", rate(n, cycles, options.clock_mhz())},
                 {"steps", rate(steps, cycles, options.clock_mhz())}};

@@ -14,10 +14,10 @@ Controller::Controller(const Parameters& parameters, const Policy& policy, int c
     : parameters_(parameters),
       policy_(policy),
       channel_(channel),
-      ranks_(static_cast<std::size_t>(parameters.ranks), RankState(parameters)),
+      ranks_(parameters.ranks, RankState(parameters)),
       columns_(parameters) {
-  reads_.reserve(static_cast<std::size_t>(policy.reads));
-  writes_.reserve(static_cast<std::size_t>(policy.writes));
+  reads_.reserve(policy.reads);
+  writes_.reserve(policy.writes);
   // Ranks are refreshed one after the other.
   for (std::size_t r = 0; r < ranks_.size(); ++r)
     ranks_[r].due = parameters.refi - static_cast<int>(r) * parameters.refi / parameters.ranks;
@@ -46,7 +46,7 @@ void Controller::take(const Entry& entry, std::int64_t now) {
 }
 
 std::size_t Controller::bank_of(const Location& at) const {
-  return static_cast<std::size_t>((at.rank * parameters_.groups + at.group) * parameters_.banks + at.bank);
+  return (at.rank * parameters_.groups + at.group) * parameters_.banks + at.bank;
 }
 
 void Controller::tell(std::int64_t now, Command::Kind kind, const Location& at) const {
@@ -133,7 +133,7 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
   const std::size_t owned = bank_of(queue.front().at);
   for (std::size_t i = 0; i < queue.size(); ++i) {
     Entry& entry = queue[i];
-    RankState& rank = ranks_[static_cast<std::size_t>(entry.at.rank)];
+    RankState& rank = ranks_[entry.at.rank];
     BankState& bank = rank.bank(entry.at.group, entry.at.bank);
     if (bank.open != entry.at.row || rank.closing) continue;
     if (starving && i != 0 && bank_of(entry.at) == owned) continue;
@@ -160,7 +160,7 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
     ++(entry.precharged ? counts_.conflicts : entry.activated ? counts_.misses : counts_.hits);
     done = {true, entry, entry.write ? now : end + p.interface_cycles};
     if (entry.write) hurry_ = false;
-    queue.erase(queue.begin() + static_cast<std::ptrdiff_t>(i));
+    queue.erase(queue.begin() + i);
     if (reads_.empty() && !done.entry.write) no_reads_since_ = now;
     return true;
   }
@@ -181,7 +181,7 @@ bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::i
                         std::int64_t& next) {
   std::uint64_t hit = 0;
   for (const Entry& entry : queue) {
-    BankState& bank = ranks_[static_cast<std::size_t>(entry.at.rank)].bank(entry.at.group, entry.at.bank);
+    BankState& bank = ranks_[entry.at.rank].bank(entry.at.group, entry.at.bank);
     if (bank.open == entry.at.row) hit |= std::uint64_t{1} << bank_of(entry.at);
   }
   for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -189,7 +189,7 @@ bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::i
     const std::uint64_t bit = std::uint64_t{1} << bank_of(entry.at);
     if ((seen & bit) != 0) continue;
     seen |= bit;
-    RankState& rank = ranks_[static_cast<std::size_t>(entry.at.rank)];
+    RankState& rank = ranks_[entry.at.rank];
     BankState& bank = rank.bank(entry.at.group, entry.at.bank);
     if (rank.closing || bank.open == entry.at.row) continue;
     if ((hit & bit) != 0 && !(starving && i == 0)) continue;

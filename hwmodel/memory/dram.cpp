@@ -14,8 +14,8 @@ Dram::Dram(const Parameters& parameters, int machine_mhz, const Policy& policy)
     : parameters_(parameters),
       policy_(policy),
       machine_mhz_(machine_mhz),
-      wake_(static_cast<std::size_t>(parameters.channels), 0),
-      turn_(static_cast<std::size_t>(parameters.channels), 0) {
+      wake_(parameters.channels, 0),
+      turn_(parameters.channels, 0) {
   for (int c = 0; c < parameters.channels; ++c) channels_.emplace_back(parameters_, policy_, c);
 }
 
@@ -25,29 +25,29 @@ int Dram::open_port(PortClient* client) {
 }
 
 bool Dram::ready(int port) const {
-  const Port& the_port = ports_[static_cast<std::size_t>(port)];
+  const Port& the_port = ports_[port];
   return the_port.inbox.size() < static_cast<std::size_t>(policy_.inbox) &&
          the_port.reads.size() < static_cast<std::size_t>(policy_.under_way);
 }
 
 void Dram::put(int port, const Request& request) {
-  Port& to = ports_[static_cast<std::size_t>(port)];
+  Port& to = ports_[port];
   std::int64_t number = 0;
   if (!request.write) {
-    number = to.first_read + static_cast<std::int64_t>(to.reads.size());
+    number = to.first_read + to.reads.size();
     to.reads.push_back({request, kNotDone});
   }
   to.inbox.push_back({request, now_, number, false});
 }
 
 const Request* Dram::reply(int port) const {
-  const Port& the_port = ports_[static_cast<std::size_t>(port)];
+  const Port& the_port = ports_[port];
   return the_port.reads.empty() || the_port.reads.front().done > now_ ? nullptr
                                                                       : &the_port.reads.front().request;
 }
 
 void Dram::take(int port) {
-  Port& the_port = ports_[static_cast<std::size_t>(port)];
+  Port& the_port = ports_[port];
   the_port.reads.pop_front();
   ++the_port.first_read;
 }
@@ -114,7 +114,7 @@ bool Dram::take_request(std::size_t channel) {
 
 void Dram::finish(const Controller::Done& done) {
   const Entry& entry = done.entry;
-  Port& port = ports_[static_cast<std::size_t>(entry.port)];
+  Port& port = ports_[entry.port];
   const Request request{entry.address, entry.id, entry.write, kBurst};
   if (port.client != nullptr) port.client->performed(request);
   const std::int64_t took = done.at - entry.put;
@@ -123,7 +123,7 @@ void Dram::finish(const Controller::Done& done) {
   } else {
     latencies_.read_latency += took;
     latencies_.worst_read = std::max(latencies_.worst_read, took);
-    port.reads[static_cast<std::size_t>(entry.number - port.first_read)].done = done.at;
+    port.reads[entry.number - port.first_read].done = done.at;
   }
   ++moves_;
 }

@@ -27,7 +27,7 @@ bool FixedLatency::streams_may_claim() const {
 }
 
 void FixedLatency::put(int port, const Request& request) {
-  ports_[static_cast<std::size_t>(port)].inbox.push_back(request);
+  ports_[port].inbox.push_back(request);
   ++way_of(port).waiting;
 }
 

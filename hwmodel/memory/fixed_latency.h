@@ -60,8 +60,8 @@ class FixedLatency final : public Memory {
     std::deque<Request> inbox;  // requests of this cycle
   };
 
-  const Way& way_of(int port) const { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
-  Way& way_of(int port) { return ways_[ports_[static_cast<std::size_t>(port)].way]; }
+  const Way& way_of(int port) const { return ways_[ports_[port].way]; }
+  Way& way_of(int port) { return ways_[ports_[port].way]; }
   void serve(int port, const Request& request);
   bool streams_may_claim() const;
 

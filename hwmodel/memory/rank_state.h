@@ -25,18 +25,16 @@ class RankState {
  public:
   explicit RankState(const Parameters& p)
       : due(p.refi),
-        banks_(static_cast<std::size_t>(p.banks_of_rank())),
-        groups_(static_cast<std::size_t>(p.groups), 0),
+        banks_(p.banks_of_rank()),
+        groups_(p.groups, 0),
         four_(4, kLongAgo),
         banks_of_group_(p.banks) {}
 
-  BankState& bank(int group, int bank_of_group) {
-    return banks_[static_cast<std::size_t>(group * banks_of_group_ + bank_of_group)];
-  }
+  BankState& bank(int group, int bank_of_group) { return banks_[group * banks_of_group_ + bank_of_group]; }
   std::vector<BankState>& banks() { return banks_; }
 
   std::int64_t may_activate(const BankState& bank, int group, const Parameters& p) const {
-    return std::max({bank.activate, groups_[static_cast<std::size_t>(group)], four_[oldest_] + p.faw});
+    return std::max({bank.activate, groups_[group], four_[oldest_] + p.faw});
   }
   void activate(BankState& bank, int group, int row, std::int64_t now, const Parameters& p) {
     bank = {row, now + p.rc, now + p.rcd, now + p.ras};
@@ -68,10 +66,10 @@ class RankState {
 class ColumnRules {
  public:
   explicit ColumnRules(const Parameters& p) : groups_(p.groups), ranks_(p.ranks) {
-    for (auto& from : from_) from.assign(static_cast<std::size_t>(p.groups * p.ranks), 0);
+    for (auto& from : from_) from.assign(p.groups * p.ranks, 0);
   }
   std::int64_t from(bool write, int rank, int group) const {
-    return from_[write ? 1 : 0][static_cast<std::size_t>(rank * groups_ + group)];
+    return from_[write ? 1 : 0][rank * groups_ + group];
   }
   void issued(bool write, int rank, int group, std::int64_t now, const Parameters& p) {
     const int read_data = p.cl + p.read_more, write_data = p.cwl + p.write_more;
@@ -87,7 +85,7 @@ class ColumnRules {
         else
           other_kind = same_rank ? write_data + p.beats() + (same_group ? p.wtr_l : p.wtr_s)
                                  : std::max(1, write_data - read_data + apart);
-        const auto i = static_cast<std::size_t>(r * groups_ + g);
+        const std::size_t i = r * groups_ + g;
         from_[write ? 1 : 0][i] = std::max(from_[write ? 1 : 0][i], now + same_kind);
         from_[write ? 0 : 1][i] = std::max(from_[write ? 0 : 1][i], now + other_kind);
       }

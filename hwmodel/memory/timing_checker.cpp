@@ -35,11 +35,11 @@ std::string words(Kind kind) {
 
 TimingChecker::TimingChecker(const Parameters& parameters) : sheet_(parameters) {
   Rank rank;
-  rank.groups.resize(static_cast<std::size_t>(sheet_.groups));
-  rank.banks.resize(rank.groups.size() * static_cast<std::size_t>(sheet_.banks));
+  rank.groups.resize(sheet_.groups);
+  rank.banks.resize(rank.groups.size() * sheet_.banks);
   Channel channel;
-  channel.ranks.assign(static_cast<std::size_t>(sheet_.ranks), rank);
-  channels_.assign(static_cast<std::size_t>(sheet_.channels), channel);
+  channel.ranks.assign(sheet_.ranks, rank);
+  channels_.assign(sheet_.channels, channel);
 }
 
 void TimingChecker::must(const char* rule, bool holds, const Command& c) {
@@ -57,13 +57,13 @@ void TimingChecker::at_least(const char* rule, std::int64_t from, int cycles, co
 }
 
 TimingChecker::Bank& TimingChecker::bank_of(Rank& rank, const Command& c) {
-  return rank.banks[static_cast<std::size_t>(c.group * sheet_.banks + c.bank)];
+  return rank.banks[c.group * sheet_.banks + c.bank];
 }
 
 void TimingChecker::issued(const Command& c) {
   ++commands_;
-  Channel& channel = channels_[static_cast<std::size_t>(c.channel)];
-  Rank& rank = channel.ranks[static_cast<std::size_t>(c.rank)];
+  Channel& channel = channels_[c.channel];
+  Rank& rank = channel.ranks[c.rank];
   check_bus(channel, c);
   if (c.kind != Kind::precharge && c.kind != Kind::precharge_all)
     at_least("tRFC", rank.refresh, sheet_.rfc, c);
@@ -119,7 +119,7 @@ void TimingChecker::check_activate(Rank& rank, const Command& c) {
   at_least("tFAW", rank.activates[3], sheet_.faw, c);
   std::rotate(rank.activates.begin(), rank.activates.begin() + 3, rank.activates.end());
   rank.activates[0] = c.cycle;
-  rank.groups[static_cast<std::size_t>(c.group)].activate = c.cycle;
+  rank.groups[c.group].activate = c.cycle;
   bank.open = true;
   bank.row = c.row;
   bank.activate = c.cycle;
@@ -149,7 +149,7 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
     at_least(same ? "tWTR_L" : "tWTR_S", group.write, data + (same ? sheet_.wtr_l : sheet_.wtr_s), c);
   }
   check_data(channel, c);
-  Group& group = rank.groups[static_cast<std::size_t>(c.group)];
+  Group& group = rank.groups[c.group];
   (read ? group.read : group.write) = c.cycle;
   (read ? bank.read : bank.write) = c.cycle;
 }

@@ -23,9 +23,7 @@ struct Grid {
   int z = 0;  ///< cells along z, the outermost axis
 
   /// Returns the number of cells, x * y * z.
-  std::size_t cells() const {
-    return static_cast<std::size_t>(x) * static_cast<std::size_t>(y) * static_cast<std::size_t>(z);
-  }
+  std::size_t cells() const { return static_cast<std::size_t>(x) * y * z; }
   friend bool operator==(const Grid&, const Grid&) = default;  ///< all three sides are equal
 };
 
@@ -39,8 +37,7 @@ class NumberView {
 
   /// Returns the grid.x numbers of one row, contiguous.
   std::span<const Number> row(int y, int z) const {
-    return {data_ + static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_,
-            static_cast<std::size_t>(grid_.x)};
+    return {data_ + z * slice_ + y * row_, static_cast<std::size_t>(grid_.x)};
   }
   /// Returns the number of one cell.
   Number at(int x, int y, int z) const { return row(y, z)[static_cast<std::size_t>(x)]; }
@@ -71,10 +68,7 @@ class MaskView {
   /// Returns the words of one row. Bit b of word w is the cell x = 64 w + b. Bits beyond the grid are 0.
   std::span<const std::uint64_t> row(int y, int z) const {
     const std::size_t words = (static_cast<std::size_t>(grid_.x) + 63) / 64;
-    return {data_ + (static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.y) +
-                     static_cast<std::size_t>(y)) *
-                        words,
-            words};
+    return {data_ + (static_cast<std::size_t>(z) * grid_.y + y) * words, words};
   }
   /// Tells if the bit of this cell is set.
   bool test(int x, int y, int z) const {
@@ -86,7 +80,7 @@ class MaskView {
     std::size_t total = 0;
     for (int z = 0; z < grid_.z; ++z)
       for (int y = 0; y < grid_.y; ++y)
-        for (const std::uint64_t word : row(y, z)) total += static_cast<std::size_t>(std::popcount(word));
+        for (const std::uint64_t word : row(y, z)) total += std::popcount(word);
     return total;
   }
   Grid grid() const { return grid_; }  ///< the size of the volume

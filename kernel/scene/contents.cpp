@@ -125,7 +125,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Material& mat
   Contents contents;
   contents.terrain.x = grid.x;
   contents.terrain.z = grid.z;
-  contents.terrain.height.resize(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z));
+  contents.terrain.height.resize(static_cast<std::size_t>(grid.x) * grid.z);
 
   const std::vector<std::pair<const char*, Role>> lists{
       {"solid", Role::solid}, {"liquid", Role::liquid}, {"inert", Role::inert}};

@@ -91,7 +91,7 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   rule::ViscousLaw law;
   // kq = (2/3) (kappa / 3), with kappa = g dt / nu.
   const double kappa = reader.number("kappa", above(0).at_most(kLargestKappa));
-  law.mobility = static_cast<std::uint64_t>(std::llround(0x1p32 * (2.0 / 9) * kappa));
+  law.mobility = std::llround(0x1p32 * (2.0 / 9) * kappa);
   law.yield =
       static_cast<std::uint32_t>(std::lround(reader.number("yield", at_most(kLargestYield), 0.0) * 65536));
   law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));

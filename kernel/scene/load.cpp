@@ -33,8 +33,7 @@ state::Grid read_grid(Reader& root) {
   if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
   const Vec3 size = reader->vector<3>("size", at_least(1).at_most(kLargestSide));
   for (const double side : size)
-    if (side != static_cast<double>(static_cast<int>(side)))
-      reader->fail("size", " must be whole numbers of cells");
+    if (side != (static_cast<int>(side))) reader->fail("size", " must be whole numbers of cells");
   reader->finish();
   const state::Grid grid{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
   check_memory(grid, reader->place("size"));
@@ -47,8 +46,8 @@ void read_run(Reader& root, Scene& scene) {
   scene.steps = static_cast<std::uint32_t>(reader->integer("steps", 0, kMostSteps, scene.steps));
   scene.frame_every =
       static_cast<std::uint32_t>(reader->integer("frame_every", 1, kMostSteps, scene.frame_every));
-  scene.parameters.seed = static_cast<std::uint64_t>(
-      reader->integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(scene.parameters.seed)));
+  scene.parameters.seed =
+      reader->integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(scene.parameters.seed));
   reader->finish();
 }
 

@@ -31,7 +31,7 @@ std::string entry(const std::string& header, const std::string& key) {
 std::vector<std::uint16_t> read_npy(const std::filesystem::path& file, int bytes, state::Grid grid,
                                     const Place& place) {
   const auto fail = [&](const std::string& message) { fail_at(place, file.string() + ": " + message); };
-  const std::size_t size = grid.cells() * static_cast<std::size_t>(bytes);
+  const std::size_t size = grid.cells() * bytes;
   const std::string data = read_text_file(file, size + kPreamble + kLargestHeader, place.text());
 
   if (data.size() < kPreamble || data.compare(0, 6, "\x93NUMPY") != 0) fail("not an npy file");
@@ -52,8 +52,7 @@ std::vector<std::uint16_t> read_npy(const std::filesystem::path& file, int bytes
     fail(fmt::format("{} bytes of data instead of {}", data.size() - kPreamble - header_size, size));
 
   std::vector<std::uint16_t> result(grid.cells());
-  for (std::size_t i = 0, at = kPreamble + header_size; i < result.size();
-       ++i, at += static_cast<std::size_t>(bytes))
+  for (std::size_t i = 0, at = kPreamble + header_size; i < result.size(); ++i, at += bytes)
     result[i] = static_cast<std::uint16_t>(bytes == 1 ? byte(at) : byte(at) | byte(at + 1) << 8);
   return result;
 }

@@ -123,7 +123,7 @@ bool has_walls(const state::Volume& volume) {
       const std::uint16_t* heat = volume.heat.row(y, z);
       for (std::size_t w = 0; w < inert.size(); ++w)
         for (std::uint64_t left = inert[w]; left != 0; left &= left - 1)
-          if (heat[64 * w + static_cast<std::size_t>(std::countr_zero(left))] > 0) return true;
+          if (heat[64 * w + std::countr_zero(left)] > 0) return true;
     }
   return false;
 }

@@ -26,8 +26,7 @@ struct Fields {
   // These are always inlined, so that no copy compiled for one instruction set can be linked in place of
   // another's.
   [[gnu::always_inline]] std::size_t at(int x, int y, int z) const {
-    return static_cast<std::size_t>(z + 1) * slice + static_cast<std::size_t>(y + 1) * row +
-           static_cast<std::size_t>(x + 1);
+    return (z + 1) * slice + (y + 1) * row + (x + 1);
   }
   [[gnu::always_inline]] bool blocked(std::size_t i) const { return solid[i] || inert[i]; }
   [[gnu::always_inline]] bool air(std::size_t i) const { return !solid[i] && !inert[i] && !liquid[i]; }

@@ -22,7 +22,7 @@ struct BrickKernels {
   static constexpr int kCells = kCellsOfBrick, kWide = BrickSource::kWide, kSide = kPlacesOfBrick;
   static constexpr Word kToLevel = 32640;
 
-  [[gnu::always_inline]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  [[gnu::always_inline]] static std::size_t at(int i) { return i; }
   template <class V, class T>
   [[gnu::always_inline]] static void load(V& to, const T* from) {
     std::memcpy(&to, from, sizeof(V));

@@ -60,8 +60,7 @@ void for_reached(const state::Grid& bricks, const state::Grid& brick, const Bric
                  const Visit& visit) {
   std::array<BrickPart, 3> to;  // indexed by side + 1
   for (int side = -1; side <= 1; ++side)
-    to[static_cast<std::size_t>(side + 1)] = {reached(part.x, side, cells), reached(part.y, side, cells),
-                                              reached(part.z, side, cells)};
+    to[side + 1] = {reached(part.x, side, cells), reached(part.y, side, cells), reached(part.z, side, cells)};
   for (std::size_t z = 0; z < 3; ++z)
     for (std::size_t y = 0; y < 3 && to[z].z != 0; ++y)
       for (std::size_t x = 0; x < 3 && to[y].y != 0; ++x) {

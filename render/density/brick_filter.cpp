@@ -27,8 +27,8 @@ CellBox trimmed(const CellBox& box, const BrickPart& part) {
   CellBox to = box;
   to.low.y += std::countr_zero(part.y);
   to.low.z += std::countr_zero(part.z);
-  to.high.y = std::min(box.high.y, box.low.y + static_cast<int>(std::bit_width(part.y)));
-  to.high.z = std::min(box.high.z, box.low.z + static_cast<int>(std::bit_width(part.z)));
+  to.high.y = std::min(box.high.y, box.low.y + std::bit_width(part.y));
+  to.high.z = std::min(box.high.z, box.low.z + std::bit_width(part.z));
   return to;
 }
 
@@ -36,7 +36,7 @@ void fill(const BrickFilter::Task& task, int channel, const state::Grid& brick) 
   const CellFields& cells = task.cells;
   const auto value =
       static_cast<std::uint16_t>(cells.uniform(channel, cells.bricks.index(brick.x, brick.y, brick.z)));
-  Values<std::uint16_t>& to = *task.to.all()[static_cast<std::size_t>(channel)];
+  Values<std::uint16_t>& to = *task.to.all()[channel];
   for_rows(cells.grid, cells_of(cells.grid, brick), [&](std::size_t i, const state::Grid&, int count) {
     std::uint16_t* row = to.data() + i;
     for (int x = 0; x < count; ++x)
@@ -49,7 +49,7 @@ void fill(const BrickFilter::Task& task, int channel, const state::Grid& brick) 
 void BrickFilter::filter_row(const Task& task, int by, int bz) {
   const CellFields& cells = task.cells;
   for (const int channel : {kSolid, kLiquid, kHeat, kObstacle, kIntensity}) {  // the shares first
-    if (cells.all()[static_cast<std::size_t>(channel)]->empty()) continue;
+    if (cells.all()[channel]->empty()) continue;
     const auto asked = [&](int bx) {
       return (task.flags[cells.bricks.index(bx, by, bz)] & flag_of(channel)) != 0;
     };
@@ -76,7 +76,7 @@ void BrickFilter::filter_row(const Task& task, int by, int bz) {
 }
 
 void BrickFilter::filter(const Task& task, int channel, const CellBox& box) {
-  const auto c = static_cast<std::size_t>(channel);
+  const std::size_t c = channel;
   const int wide = channel_passes(task.liquid_passes, task.solid_passes);
   low_pass_.load(*task.cells.all()[c], box, wide);
   low_pass_.advance(wide, task.with);

@@ -23,8 +23,7 @@ std::int32_t one_value(const state::Grid& grid, const CellBox& box, const Values
   for_rows(grid, box, [&](std::size_t at, const state::Grid&, int cells) {
     if (!same) return;
     unsigned differs = 0;
-    for (int x = 0; x < cells; ++x)
-      differs |= static_cast<unsigned>(values.data()[at + static_cast<std::size_t>(x)] ^ first);
+    for (int x = 0; x < cells; ++x) differs |= (values.data()[at + x] ^ first);
     same = differs == 0;
   });
   return same ? first : CellFields::kMixed;
@@ -53,7 +52,7 @@ void BrickWriter::write_matter(const state::Grid& brick) {
                          volume_.solid.row(box.low.y, box.low.z).data() + word,
                          volume_.liquid.row(box.low.y, box.low.z).data() + word,
                          words,
-                         words * static_cast<std::size_t>(grid.y),
+                         words * grid.y,
                          brick.x % 8 * kBrickSide,
                          field(volume_.amount),
                          field(volume_.heat),
@@ -175,7 +174,7 @@ void BrickWriter::move_puddle(const Plan& plan, int x, int z) {
   const std::size_t step = volume_.amount.layout().row();
   const auto amount_at = [&](int y) -> std::int32_t {
     if (y < plan.floor || y >= plan.end) return y < plan.floor ? kOne : 0;
-    return std::min<std::int32_t>(amounts[static_cast<std::size_t>(y) * step], kOne);
+    return std::min<std::int32_t>(amounts[y * step], kOne);
   };
   const std::int32_t part = std::abs(plan.shift);
   const int first = plan.shift < 0 ? plan.floor - 1 : plan.floor;
@@ -188,19 +187,18 @@ void BrickWriter::move_puddle(const Plan& plan, int x, int z) {
 }
 
 void BrickWriter::take_over(int channel, Cells& fresh, std::size_t brick) {
-  const auto c = static_cast<std::size_t>(channel);
+  const std::size_t c = channel;
   std::uint16_t* const kept = fields_.all()[c]->data();
   BrickPart part;
   std::array<std::uint16_t, kBrickSide> differs{};
   for_rows(fields_.grid, box_, [&](std::size_t i, const state::Grid& cell, int cells) {
     const std::uint16_t* row = &at(fresh, cell.x, cell.y, cell.z);
-    if (cells == kBrickSide
-            ? std::memcmp(row, kept + i, sizeof(std::uint16_t) * kBrickSide) == 0
-            : std::memcmp(row, kept + i, sizeof(std::uint16_t) * static_cast<std::size_t>(cells)) == 0)
+    if (cells == kBrickSide ? std::memcmp(row, kept + i, sizeof(std::uint16_t) * kBrickSide) == 0
+                            : std::memcmp(row, kept + i, sizeof(std::uint16_t) * cells) == 0)
       return;
     for (int x = 0; x < cells; ++x) {
-      std::uint16_t& old = kept[i + static_cast<std::size_t>(x)];
-      auto& differ = differs[static_cast<std::size_t>(x)];
+      std::uint16_t& old = kept[i + x];
+      auto& differ = differs[x];
       differ = static_cast<std::uint16_t>(differ | (old ^ row[x]));
       old = row[x];
     }
@@ -209,7 +207,7 @@ void BrickWriter::take_over(int channel, Cells& fresh, std::size_t brick) {
   });
   if (part.y == 0) return;
   for (int x = 0; x < kBrickSide; ++x)
-    part.x = static_cast<std::uint8_t>(part.x | (differs[static_cast<std::size_t>(x)] != 0 ? 1 << x : 0));
+    part.x = static_cast<std::uint8_t>(part.x | (differs[x] != 0 ? 1 << x : 0));
   fields_.uniform_[c][brick] = one_value(fields_.grid, box_, *fields_.all()[c]);
   fields_.changes_[brick].channels |= flag_of(channel);
   fields_.changes_[brick].matter.add(part);

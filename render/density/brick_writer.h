@@ -30,8 +30,7 @@ class BrickWriter {
   using Cells = std::array<std::uint16_t, kCells>;
 
   std::uint16_t& at(Cells& cells, int x, int y, int z) const {
-    return cells[static_cast<std::size_t>(((z - box_.low.z) * kBrickSide + y - box_.low.y) * kBrickSide + x -
-                                          box_.low.x)];
+    return cells[((z - box_.low.z) * kBrickSide + y - box_.low.y) * kBrickSide + x - box_.low.x];
   }
   unsigned inert_bits(int y, int z) const;
   bool put_obstacles(const state::Grid& brick);

@@ -39,17 +39,15 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
   const auto marked = [&](std::size_t brick) { return all || volume.changed.since(part, seen, brick); };
   if (news.everything) terrain_ = fits(terrain, grid) ? terrain.height : std::vector<float>{};
   wanted_ = wanted;
-  news.look.assign(static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.z), 0);
+  news.look.assign(static_cast<std::size_t>(bricks.x) * bricks.z, 0);
   workers.run(bricks.z, [&](int bz) { take_matter(volume, bz, marked, news, with); });
 
   const std::vector<Extent>& another = columns_.update(volume, wanted.smooth, terrain, news, workers, with);
   const bool obstacles = columns_.has_obstacles();
   if (obstacles && obstacle.empty()) obstacle = Values<std::uint16_t>(grid.cells());
 
-  std::vector<std::vector<std::uint32_t>> changed(static_cast<std::size_t>(bricks.z));
-  workers.run(bricks.z, [&](int bz) {
-    write_intensities(volume, bz, news, another, with, changed[static_cast<std::size_t>(bz)]);
-  });
+  std::vector<std::vector<std::uint32_t>> changed(bricks.z);
+  workers.run(bricks.z, [&](int bz) { write_intensities(volume, bz, news, another, with, changed[bz]); });
   for (const auto& list : changed) changed_.insert(changed_.end(), list.begin(), list.end());
   if (!obstacles && !obstacle.empty()) {
     obstacle = {};
@@ -86,7 +84,7 @@ void CellFields::write_intensities(const state::Volume& volume, int bz, const Co
                                    std::vector<std::uint32_t>& changed) {
   BrickWriter writer(volume, *this, wanted_.heat, with);
   std::size_t brick = bricks.index(0, 0, bz);
-  const auto row = static_cast<std::size_t>(bricks.x);
+  const std::size_t row = bricks.x;
   for (int by = 0; by < bricks.y; ++by)
     for (int bx = 0; bx < bricks.x; ++bx, ++brick) {
       const std::size_t column = columns_.brick_at(bx, bz);

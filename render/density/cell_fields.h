@@ -82,9 +82,7 @@ class CellFields : public ChannelValues {
   const Columns& columns() const { return columns_; }
 
   // Returns the one value that a channel has in all of a brick, or kMixed.
-  std::int32_t uniform(int channel, std::size_t brick) const {
-    return uniform_[static_cast<std::size_t>(channel)][brick];
-  }
+  std::int32_t uniform(int channel, std::size_t brick) const { return uniform_[channel][brick]; }
 
   friend bool operator==(const CellFields& a, const CellFields& b) {
     return a.grid == b.grid && static_cast<const ChannelValues&>(a) == b && a.columns_ == b.columns_ &&

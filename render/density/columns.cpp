@@ -103,12 +103,8 @@ class Columns::Finder {
     const std::uint64_t* const solid = volume_.solid.row(0, z).data() + word;
     const std::uint16_t* const amounts = volume_.amount.data() + volume_.at(x, 0, z).offset;
     const std::size_t step = volume_.amount.layout().row();
-    const auto is = [&](const std::uint64_t* plane, int y) {
-      return (plane[static_cast<std::size_t>(y) * words] >> x % 64 & 1) != 0;
-    };
-    const auto amount = [&](int y) {
-      return std::min<std::int32_t>(amounts[static_cast<std::size_t>(y) * step], kOne);
-    };
+    const auto is = [&](const std::uint64_t* plane, int y) { return (plane[y * words] >> x % 64 & 1) != 0; };
+    const auto amount = [&](int y) { return std::min<std::int32_t>(amounts[y * step], kOne); };
     const bool wet = stand.bed < ny && is(liquid, stand.bed);
     stand.offset = offset(volume_, x, stand.bed, z);
     const std::int32_t on_bed = wet || (stand.bed < ny && is(solid, stand.bed)) ? amount(stand.bed) : 0;
@@ -158,13 +154,13 @@ void Extent::add(std::int32_t from, std::int32_t to) {
 Columns::Columns(const state::Grid& grid)
     : grid_(grid),
       bricks_(brick_grid(grid)),
-      stands_(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z)),
+      stands_(static_cast<std::size_t>(grid.x) * grid.z),
       shifts_(stands_.size(), 0),
       distances_(stands_.size(), kFarther),
       plans_(stands_.size()),
       ground_(stands_.size(), 0),
       wetness_(stands_.size(), 0),
-      planned_(static_cast<std::size_t>(bricks_.x) * static_cast<std::size_t>(bricks_.z)),
+      planned_(static_cast<std::size_t>(bricks_.x) * bricks_.z),
       another_(planned_),
       read_to_(planned_.size(), 1),
       obstacles_(planned_.size(), 0) {
@@ -198,7 +194,7 @@ const std::vector<Extent>& Columns::update(const state::Volume& volume, int smoo
     std::fill(shifts_.begin(), shifts_.end(), 0);
   }
 
-  std::vector<Found> found(static_cast<std::size_t>(bricks_.z));
+  std::vector<Found> found(bricks_.z);
   std::vector<std::uint8_t> looked(planned_.size(), 0);
   workers.run(bricks_.z, [&](int bz) {
     Finder finder(volume, fits(terrain, grid_) ? &terrain : nullptr, *this);
@@ -208,7 +204,7 @@ const std::vector<Extent>& Columns::update(const state::Volume& volume, int smoo
       const std::uint8_t look = news.everything ? std::uint8_t{kInert} : news.look[brick];
       if (look == kNothing) continue;
       looked[brick] = 1;
-      finder.find(bx, bz, look == kInert, found[static_cast<std::size_t>(bz)]);
+      finder.find(bx, bz, look == kInert, found[bz]);
     }
   });
 
@@ -246,11 +242,9 @@ void Columns::find_distances(const ColumnBox& box) {
   if (box.empty()) return;
   const ColumnBox wide = box.widened(kGroundReach, grid_.x, grid_.z);
   const int width = wide.high_x - wide.low_x;
-  std::vector<std::uint8_t> along(static_cast<std::size_t>(width) *
-                                  static_cast<std::size_t>(wide.high_z - wide.low_z));
+  std::vector<std::uint8_t> along(static_cast<std::size_t>(width) * (wide.high_z - wide.low_z));
   const auto place = [&](int x, int z) {
-    return static_cast<std::size_t>(z - wide.low_z) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x - wide.low_x);
+    return static_cast<std::size_t>(z - wide.low_z) * width + (x - wide.low_x);
   };
   for (int z = wide.low_z; z < wide.high_z; ++z) {
     int last = -kFarther;  // the last wet column to the left
@@ -315,7 +309,7 @@ void Columns::find_plans(int bx, int bz) {
 
 bool fits(const scene::Terrain& terrain, const state::Grid& grid) {
   return terrain.x == grid.x && terrain.z == grid.z &&
-         terrain.height.size() == static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z);
+         terrain.height.size() == static_cast<std::size_t>(grid.x) * grid.z;
 }
 
 }  // namespace voxmelt::render

@@ -73,12 +73,8 @@ class Columns {
   // Tells whether the ground kept its height, as far as the marked brick holds it.
   bool same_offsets(const state::Volume& volume, const state::Grid& brick) const;
 
-  std::size_t at(int x, int z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.x) + static_cast<std::size_t>(x);
-  }
-  std::size_t brick_at(int bx, int bz) const {
-    return static_cast<std::size_t>(bz) * static_cast<std::size_t>(bricks_.x) + static_cast<std::size_t>(bx);
-  }
+  std::size_t at(int x, int z) const { return static_cast<std::size_t>(z) * grid_.x + x; }
+  std::size_t brick_at(int bx, int bz) const { return static_cast<std::size_t>(bz) * bricks_.x + bx; }
   const Stand& stand(std::size_t column) const { return stands_[column]; }
   const Plan& plan(std::size_t column) const { return plans_[column]; }
   const Extent& planned(std::size_t brick) const { return planned_[brick]; }  // cells that its plans write

@@ -19,7 +19,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
     filtered_ = ChannelValues(volume.grid.cells());
     dirty_.assign(bricks().cells(), 0);
     parts_.assign(bricks().cells(), {});
-    rows_.assign(static_cast<std::size_t>(bricks().y) * static_cast<std::size_t>(bricks().z), 0);
+    rows_.assign(static_cast<std::size_t>(bricks().y) * bricks().z, 0);
     filters_.clear();
     glow_ = look.glow;
     seen_ = {};
@@ -42,8 +42,8 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   while (static_cast<int>(filters_.size()) < parts) filters_.emplace_back(grid());
   workers_->run(parts, [&](int part) {
     for (int i = rows * part / parts; i < rows * (part + 1) / parts; ++i) {
-      const int row = dirty_rows_[static_cast<std::size_t>(i)];
-      filters_[static_cast<std::size_t>(part)].filter_row(task, row % bricks().y, row / bricks().y);
+      const int row = dirty_rows_[i];
+      filters_[part].filter_row(task, row % bricks().y, row / bricks().y);
     }
   });
   for (std::size_t brick = 0; brick < dirty_.size(); ++brick)
@@ -65,14 +65,13 @@ void DensityField::find_dirty(bool all) {
         parts_[at].heat.add(brick_part);
       else
         parts_[at].matter.add(brick_part);
-      rows_[static_cast<std::size_t>(near.z) * static_cast<std::size_t>(bricks().y) +
-            static_cast<std::size_t>(near.y)] = 1;
+      rows_[static_cast<std::size_t>(near.z) * bricks().y + near.y] = 1;
     });
   };
   const int wide = channel_passes(liquid_passes_, solid_passes_);
   for (const std::uint32_t index : cells_.changed()) {
     const BrickChange& change = cells_.change(index);
-    const auto i = static_cast<int>(index);
+    const int i = index;
     const state::Grid brick{i % bricks().x, i / bricks().x % bricks().y, i / bricks().x / bricks().y};
     if (change.heat.any()) spread(brick, change.heat, wide, flag_of(kHeat));
     if (!change.matter.any()) continue;

@@ -53,7 +53,7 @@ struct DensityLoops {
     if (count >= kGroup)
       store(from, cells);
     else
-      std::memcpy(cells, &from, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+      std::memcpy(cells, &from, sizeof(std::uint16_t) * count);
   }
 
   [[gnu::always_inline]] static U16 lanes_of(std::uint64_t bits) {
@@ -81,8 +81,7 @@ struct DensityLoops {
   [[gnu::always_inline]] static void take_rows(const MatterBrick& brick, Rows& rows) {
     for (int k = 0; k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
-        const std::size_t word =
-            static_cast<std::size_t>(k) * brick.mask_slice + static_cast<std::size_t>(j) * brick.mask_row;
+        const std::size_t word = k * brick.mask_slice + j * brick.mask_row;
         const int r = k * kBrickSide + j;
         rows.any_solid |= rows.solids[r] = brick.solid[word] >> brick.shift & 0xff;
         rows.any_liquid |= rows.liquids[r] = brick.liquid[word] >> brick.shift & 0xff;
@@ -177,22 +176,20 @@ struct DensityLoops {
   static void low_pass(Block<const std::uint16_t> from, Block<std::uint16_t> to, int x, int y, int z,
                        std::uint16_t* room) {
     const int wide = (x + 2 + kLanes - 1) / kLanes * kLanes, own = (x + kLanes - 1) / kLanes * kLanes;
-    const auto step = static_cast<std::size_t>(wide + kLanes);
-    std::uint16_t* const other = room + step * static_cast<std::size_t>(y + 2);
+    const std::size_t step = wide + kLanes;
+    std::uint16_t* const other = room + step * (y + 2);
     for (int k = 0; k < z; ++k) {
       for (int j = 0; j < y + 2; ++j) {
-        const std::uint16_t* row =
-            from.cells + static_cast<std::size_t>(k) * from.slice + static_cast<std::size_t>(j) * from.row;
-        average(row, row + from.slice, row + 2 * from.slice, wide, room + static_cast<std::size_t>(j) * step);
+        const std::uint16_t* row = from.cells + k * from.slice + j * from.row;
+        average(row, row + from.slice, row + 2 * from.slice, wide, room + j * step);
       }
       for (int j = 0; j < y; ++j) {
-        const std::uint16_t* row = room + static_cast<std::size_t>(j) * step;
-        average(row, row + step, row + 2 * step, wide, other + static_cast<std::size_t>(j) * step);
+        const std::uint16_t* row = room + j * step;
+        average(row, row + step, row + 2 * step, wide, other + j * step);
       }
       for (int j = 0; j < y; ++j) {
-        const std::uint16_t* row = other + static_cast<std::size_t>(j) * step;
-        average(row, row + 1, row + 2, own,
-                to.cells + static_cast<std::size_t>(k) * to.slice + static_cast<std::size_t>(j) * to.row);
+        const std::uint16_t* row = other + j * step;
+        average(row, row + 1, row + 2, own, to.cells + k * to.slice + j * to.row);
       }
     }
   }

@@ -24,8 +24,7 @@ class Sheet {
     now_.assign(stride_ * (static_cast<std::size_t>(box.high_z - box.low_z) + 2), kAbyss);
     for (int z = box.low_z; z < box.high_z; ++z) {
       int first = box.high_x, end = box.low_x;
-      const std::int32_t* row =
-          levels.level.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(levels.x);
+      const std::int32_t* row = levels.level.data() + static_cast<std::size_t>(z) * levels.x;
       for (int x = box.low_x; x < box.high_x; ++x) {
         if (row[x] == kNoLevel) continue;
         now_[at(x, z)] = row[x] << kFractionBits;
@@ -53,10 +52,7 @@ class Sheet {
   struct Span {
     int z, first, end;
   };
-  std::size_t at(int x, int z) const {
-    return static_cast<std::size_t>(z - box_.low_z + 1) * stride_ +
-           static_cast<std::size_t>(x - box_.low_x + 1);
-  }
+  std::size_t at(int x, int z) const { return (z - box_.low_z + 1) * stride_ + (x - box_.low_x + 1); }
 
   ColumnBox box_;
   std::size_t stride_;
@@ -86,8 +82,7 @@ void find_shifts(const PuddleLevels& levels, int passes, const ColumnBox& box,
   for (int pass = 0; pass < passes; ++pass) sheet.smooth(with);
   for (int z = box.low_z; z < box.high_z; ++z)
     for (int x = box.low_x; x < box.high_x; ++x) {
-      const auto i =
-          static_cast<std::size_t>(z) * static_cast<std::size_t>(levels.x) + static_cast<std::size_t>(x);
+      const auto i = static_cast<std::size_t>(z) * levels.x + x;
       const std::int32_t most = std::min(kMostShift, levels.depth[i] >> 1);
       shifts[i] =
           levels.level[i] == kNoLevel ? 0 : std::clamp(sheet.level(x, z) - levels.level[i], -most, most);

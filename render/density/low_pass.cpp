@@ -32,7 +32,7 @@ void LowPass::load(const Values<std::uint16_t>& from, const CellBox& box, int pa
     here_ = {from.data() + grid_.index(origin_.x, origin_.y, origin_.z), grid_.index(0, 1, 0),
              grid_.index(0, 0, 1)};
   } else {
-    here_ = {block_.get(), whole_groups(x_), whole_groups(x_) * static_cast<std::size_t>(y_)};
+    here_ = {block_.get(), whole_groups(x_), whole_groups(x_) * y_};
     copy(from);
   }
 }
@@ -45,8 +45,7 @@ void LowPass::copy(const Values<std::uint16_t>& from) {
     for (int y = 0; y < y_; ++y) {
       const std::uint16_t* row = from.data() + grid_.index(0, std::clamp(origin_.y + y, 0, grid_.y - 1),
                                                            std::clamp(origin_.z + z, 0, grid_.z - 1));
-      std::uint16_t* to =
-          block_.get() + static_cast<std::size_t>(z) * here_.slice + static_cast<std::size_t>(y) * here_.row;
+      std::uint16_t* to = block_.get() + z * here_.slice + y * here_.row;
       std::fill_n(to, before, row[inside]);
       std::copy(row + inside, row + end, to + before);
       std::fill_n(to + (x_ - after), after, row[end - 1]);
@@ -63,16 +62,15 @@ void LowPass::advance(int passes, const Loops& with) {
     origin_ = {origin_.x + 1, origin_.y + 1, origin_.z + 1};
     const bool copied = here_.cells == block_.get();
     const std::size_t row = whole_groups(x_);
-    const Block<std::uint16_t> to{block_.get(), copied ? here_.row : row,
-                                  copied ? here_.slice : row * static_cast<std::size_t>(y_)};
+    const Block<std::uint16_t> to{block_.get(), copied ? here_.row : row, copied ? here_.slice : row * y_};
     with.low_pass(here_, to, x_, y_, z_, room_.get());
     here_ = {to.cells, to.row, to.slice};
   }
 }
 
 const std::uint16_t* LowPass::at(int x, int y, int z) const {
-  return here_.cells + static_cast<std::size_t>(z - origin_.z) * here_.slice +
-         static_cast<std::size_t>(y - origin_.y) * here_.row + static_cast<std::size_t>(x - origin_.x);
+  return here_.cells + (z - origin_.z) * here_.slice + (y - origin_.y) * here_.row +
+         static_cast<std::size_t>(x - origin_.x);
 }
 
 Values<std::uint16_t> low_pass(const state::Grid& grid, int passes, const Values<std::uint16_t>& from) {

@@ -121,16 +121,15 @@ void GroundMap::make_texels() {
   // The relief has a texel more on each side.
   const std::int64_t row = x + 2;
   std::vector<std::int32_t> reliefs;
-  reliefs.reserve(static_cast<std::size_t>(row * (z + 2)));
+  reliefs.reserve(row * (z + 2));
   for (std::int64_t j = -1; j <= z; ++j)
     for (std::int64_t i = -1; i <= x; ++i) reliefs.push_back(picture::relief(place(i, j)));
   const auto bump = [&](std::int64_t at, std::int64_t stride) {
-    return picture::bump(reliefs[static_cast<std::size_t>(at - stride)],
-                         reliefs[static_cast<std::size_t>(at + stride)], fineness_);
+    return picture::bump(reliefs[at - stride], reliefs[at + stride], fineness_);
   };
 
   const auto [low, high] = std::minmax_element(bare_.begin(), bare_.end());
-  texels_.reserve(static_cast<std::size_t>(x * z));
+  texels_.reserve(x * z);
   for (std::int64_t j = 0; j < z; ++j)
     for (std::int64_t i = 0; i < x; ++i) {
       const Vector here = place(i, j);

@@ -59,9 +59,7 @@ class GroundMap {
   void find_slopes();
   void make_texels();
   void make_bands();
-  std::size_t column(std::int64_t x, std::int64_t z) const {
-    return static_cast<std::size_t>(z * cells_.x + x);
-  }
+  std::size_t column(std::int64_t x, std::int64_t z) const { return z * cells_.x + x; }
 
   picture::Vector cells_;
   picture::Vector color_;

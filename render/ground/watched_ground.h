@@ -12,9 +12,7 @@ namespace voxmelt::render {
 
 // Returns a table of columns in the form that the rule reads.
 inline auto columns_of(const GroundMap& map, const ColumnHeights& heights) {
-  return [&heights, row = map.cells().x](std::int64_t x, std::int64_t z) {
-    return heights[static_cast<std::size_t>(z * row + x)];
-  };
+  return [&heights, row = map.cells().x](std::int64_t x, std::int64_t z) { return heights[z * row + x]; };
 }
 
 // Returns the result of GroundMap::find. A watcher sees every part that the page looks at, and no sample is
@@ -44,9 +42,7 @@ picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& c
     const auto& bends =
         map.bends()[static_cast<std::size_t>(crossing.face) - static_cast<std::size_t>(Face::low_x)];
     const auto entry = [&](const auto& table, std::int64_t position) {
-      const auto at = [&](std::int64_t i, std::int64_t) {
-        return std::int32_t{table[static_cast<std::size_t>(i)]};
-      };
+      const auto at = [&](std::int64_t i, std::int64_t) { return std::int32_t{table[i]}; };
       return picture::bilinear(at, static_cast<std::int64_t>(table.size()), 1, picture::place_of(position),
                                {});
     };
@@ -67,9 +63,7 @@ GroundMap::Paint top_paint(const GroundMap& map, picture::Vector position, pictu
   const std::int64_t columns = map.cells().x << fineness, rows = map.cells().z << fineness;
   const picture::Place x = picture::place_of(position.x << fineness),
                        z = picture::place_of(position.z << fineness);
-  const auto texel = [&](std::int64_t i, std::int64_t j) {
-    return map.texels()[static_cast<std::size_t>(j * columns + i)];
-  };
+  const auto texel = [&](std::int64_t i, std::int64_t j) { return map.texels()[j * columns + i]; };
   const auto channel = [&](const auto& texels, const auto& one) -> std::int64_t {
     return picture::bilinear(
         [&](std::int64_t i, std::int64_t j) -> std::int32_t { return one(texels(i, j)); }, columns, rows, x,

@@ -21,8 +21,7 @@ Image contact_sheet(const std::vector<Image>& frames, const std::vector<std::str
   if (frames.empty()) return {};
   const int count = static_cast<int>(frames.size());
   const int columns =
-      std::min(count, style.columns > 0 ? style.columns
-                                        : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
+      std::min(count, style.columns > 0 ? style.columns : static_cast<int>(std::ceil(std::sqrt(count))));
   const int rows = (count + columns - 1) / columns;
   const int width = frames[0].width, height = frames[0].height;
   const int scale = std::max(1, width / 240);
@@ -32,7 +31,7 @@ Image contact_sheet(const std::vector<Image>& frames, const std::vector<std::str
   for (int i = 0; i < count; ++i) {
     const int x0 = style.gap + (i % columns) * (width + style.gap);
     const int y0 = style.gap + (i / columns) * (height + style.gap);
-    const auto index = static_cast<std::size_t>(i);
+    const std::size_t index = i;
     paste(sheet, frames[index], x0, y0, width, height);
     if (index < labels.size())
       draw_label(sheet, labels[index], x0 + 4 * scale, y0 + 4 * scale, scale, style.label_color);

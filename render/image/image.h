@@ -13,7 +13,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 struct Image {
   Image() = default;
   Image(int w, int h, Rgb fill = {0, 0, 0}) : width(w), height(h) {
-    pixels.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill);
+    pixels.assign(static_cast<std::size_t>(w) * h, fill);
   }
 
   Rgb& at(int x, int y) { return pixels[index(x, y)]; }
@@ -25,9 +25,7 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
 
@@ -35,8 +33,7 @@ static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
 struct Image16 {
   Image16() = default;
   Image16(int w, int h, int c) : width(w), height(h), channels(c) {
-    numbers.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c),
-                   0);
+    numbers.assign(static_cast<std::size_t>(w) * h * c, 0);
   }
 
   int width = 0, height = 0, channels = 1;

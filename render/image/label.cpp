@@ -84,7 +84,7 @@ void draw_label(Image& image, std::string_view text, int x, int y, int scale, Rg
     if (const Glyph* glyph = find_glyph(character))
       for (int row = 0; row < kGlyphHeight; ++row)
         for (int column = 0; column < kGlyphWidth; ++column)
-          if ((glyph->rows[static_cast<std::size_t>(row)] >> (kGlyphWidth - 1 - column)) & 1)
+          if ((glyph->rows[row] >> (kGlyphWidth - 1 - column)) & 1)
             fill_square(image, x + column * scale, y + row * scale, scale, color);
     x += (kGlyphWidth + 1) * scale;
   }

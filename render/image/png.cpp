@@ -63,8 +63,8 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
   ~Reader() { png_image_free(&header_); }
 
-  int width() const { return static_cast<int>(header_.width); }
-  int height() const { return static_cast<int>(header_.height); }
+  int width() const { return header_.width; }
+  int height() const { return header_.height; }
   png_uint_32 format() const { return header_.format; }
 
   void read(png_uint_32 format, void* pixels) {

@@ -63,8 +63,8 @@ struct Format {
 template <class ReadRow>
 std::string file_bytes(const Format& format, bool colors, const ReadRow& read_row) {
   std::string file = "\x89PNG\r\n\x1a\n", header;
-  append_number(header, static_cast<std::uint32_t>(format.width));
-  append_number(header, static_cast<std::uint32_t>(format.height));
+  append_number(header, format.width);
+  append_number(header, format.height);
   header += {format.depth, format.color, 0, 0, 0};
   append_chunk(file, "IHDR", header);
   if (colors) append_chunk(file, "sRGB", std::string_view("\0", 1));
@@ -73,12 +73,12 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
   // above.
   const std::size_t bytes = static_cast<std::size_t>(format.width) * format.pixel;
   Bytes row(format.pixel + bytes), above(format.pixel + bytes), by_above(bytes);
-  Bytes filtered(static_cast<std::size_t>(format.height) * (bytes + 1));
+  Bytes filtered(format.height * (bytes + 1));
   for (int y = 0; y < format.height; ++y) {
     row.swap(above);
     std::uint8_t* const begin = row.data() + format.pixel;
     read_row(y, begin);
-    std::uint8_t* const to = filtered.data() + static_cast<std::size_t>(y) * (bytes + 1);
+    std::uint8_t* const to = filtered.data() + y * (bytes + 1);
     const int left = differences(begin, row.data(), bytes, to + 1);
     const int up = differences(begin, above.data() + format.pixel, bytes, by_above.data());
     const bool take_up = up < left;
@@ -95,17 +95,17 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
 std::string png_bytes(const Image& image) {
   return file_bytes({image.width, image.height, 8, 2, 3}, true, [&](int y, std::uint8_t* row) {
     const auto* const from = reinterpret_cast<const std::uint8_t*>(&image.at(0, y));
-    std::copy_n(from, sizeof(Rgb) * static_cast<std::size_t>(image.width), row);
+    std::copy_n(from, sizeof(Rgb) * image.width, row);
   });
 }
 
 std::string png_bytes(const Image16& image) {
   const char color = image.channels == 1 ? 0 : 2;
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  const std::size_t numbers = channels * static_cast<std::size_t>(image.width);
+  const std::size_t channels = image.channels;
+  const std::size_t numbers = channels * image.width;
   const Format format{image.width, image.height, 16, color, 2 * channels};
   return file_bytes(format, false, [&](int y, std::uint8_t* row) {
-    const std::uint16_t* const from = image.numbers.data() + static_cast<std::size_t>(y) * numbers;
+    const std::uint16_t* const from = image.numbers.data() + y * numbers;
     for (std::size_t i = 0; i < numbers; ++i) {  // the high byte comes first
       row[2 * i] = static_cast<std::uint8_t>(from[i] >> 8);
       row[2 * i + 1] = static_cast<std::uint8_t>(from[i] & 0xFF);

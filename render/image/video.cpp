@@ -134,7 +134,7 @@ void VideoWriter::add(const Image& frame) {
       return close();
     }
     bytes += sent;
-    left -= static_cast<std::size_t>(sent);
+    left -= sent;
   }
 }
 

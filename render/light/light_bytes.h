@@ -16,10 +16,9 @@ struct LightPlane {
   std::vector<std::uint8_t> cells;
 
   LightPlane() = default;
-  LightPlane(picture::Vector size, std::uint8_t fill)
-      : count(size), cells(static_cast<std::size_t>(size.x * size.y * size.z), fill) {}
+  LightPlane(picture::Vector size, std::uint8_t fill) : count(size), cells(size.x * size.y * size.z, fill) {}
   std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return static_cast<std::size_t>((z * count.y + y) * count.x + x);
+    return (z * count.y + y) * count.x + x;
   }
 };
 

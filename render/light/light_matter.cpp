@@ -93,12 +93,12 @@ void LightSources::find_blocks(const DensityField& field, const std::vector<std:
 
 bool LightSources::refresh_block(const DensityField& field, std::uint32_t block, const LightLoops& loops) {
   const int side = std::max(kBrickSide, 1 << shift_), cells = side >> shift_;
-  const auto i = static_cast<int>(block);
+  const int i = block;
   const state::Grid at{i % blocks_.x, i / blocks_.x % blocks_.y, i / blocks_.x / blocks_.y};
   const state::Grid first{at.x * side, at.y * side, at.z * side};
   const auto count = [&](int from, int number) { return std::min(side, number - from); };
   const std::size_t cell = grid_.index(first.x, first.y, first.z);
-  const auto room = static_cast<std::size_t>(cells);
+  const std::size_t room = cells;
   LightBlock from{count(first.x, grid_.x),
                   count(first.y, grid_.y),
                   count(first.z, grid_.z),
@@ -143,7 +143,7 @@ bool LightSources::refresh_block(const DensityField& field, std::uint32_t block,
 // Thins all but the obstacles, which are not clear.
 std::uint8_t LightSources::thinned_density(std::uint8_t all, std::uint8_t obstacle) const {
   const int opaque = std::min(all, obstacle);
-  return static_cast<std::uint8_t>(opaque + thinned_[static_cast<std::size_t>(all - opaque)]);
+  return static_cast<std::uint8_t>(opaque + thinned_[all - opaque]);
 }
 
 bool LightSources::show(std::size_t cell) {
@@ -156,22 +156,22 @@ bool LightSources::show(std::size_t cell) {
 // Takes over columns whose height has changed.
 bool LightSources::refresh_ground(const std::vector<std::int32_t>& ground) {
   if (ground == ground_) return false;
-  const std::size_t columns = static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.z);
+  const std::size_t columns = static_cast<std::size_t>(grid_.x) * grid_.z;
   ground_.resize(columns, 0);
   std::vector<std::int32_t> none;
   if (ground.empty()) none.assign(columns, 0);
   const std::vector<std::int32_t>& fresh = ground.empty() ? none : ground;
   bool changed = false;
-  const auto x = static_cast<std::size_t>(grid_.x);
+  const std::size_t x = grid_.x;
   for (std::int64_t lz = 0; lz < matter_.density.count.z; ++lz) {
     const auto end = std::min<std::size_t>(static_cast<std::size_t>((lz + 1) << shift_),
                                            static_cast<std::size_t>(grid_.z));
     std::int64_t done = -1;  // the last column of light that was refreshed
-    for (std::size_t z = static_cast<std::size_t>(lz << shift_); z < end; ++z) {
+    for (std::size_t z = lz << shift_; z < end; ++z) {
       if (std::memcmp(ground_.data() + z * x, fresh.data() + z * x, x * sizeof(std::int32_t)) == 0) continue;
       done = -1;
       for (std::size_t i = 0; i < x; ++i) {
-        const auto lx = static_cast<std::int64_t>(i >> shift_);
+        const std::int64_t lx = i >> shift_;
         if (ground_[z * x + i] == fresh[z * x + i] || lx == done) continue;
         changed = refresh_earth(lx, lz, fresh) || changed;
         done = lx;
@@ -190,7 +190,7 @@ bool LightSources::refresh_earth(std::int64_t x, std::int64_t z, const std::vect
   const auto each = [&](const auto& visit) {
     for (std::int64_t k = z << shift_; k < end(z, grid_.z); ++k)
       for (std::int64_t i = x << shift_; i < end(x, grid_.x); ++i)
-        visit(static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.x) + static_cast<std::size_t>(i));
+        visit(static_cast<std::size_t>(k) * grid_.x + i);
   };
   const std::int64_t most = matter_.density.count.y * height;
   std::int64_t low = most, high = 0;

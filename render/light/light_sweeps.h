@@ -70,9 +70,7 @@ struct LightSweeps {
           std::uint32_t sums[kGroup] = {};
           for (int k = z; k < end(z + side, block.z); ++k)
             for (int j = y; j < end(y + side, block.y); ++j)
-              take(static_cast<std::size_t>(k) * block.slice + static_cast<std::size_t>(j) * block.row +
-                       static_cast<std::size_t>(x),
-                   block.x - x, sums);
+              take(k * block.slice + j * block.row + x, block.x - x, sums);
           for (int i = 0; i < kGroup; ++i) {
             sum += sums[i];
             if ((x + i + 1) % side != 0 && x + i + 1 != block.x) continue;
@@ -158,7 +156,7 @@ struct LightSweeps {
   [[gnu::always_inline]] static void leave(const SideSlice& slice, int v, Word* left, Word* along) {
     constexpr Word kOutside = kGlow ? 0 : 255;
     const int count = light_row(slice.u);
-    const std::size_t at = static_cast<std::size_t>(v) * slice.row_step;
+    const std::size_t at = v * slice.row_step;
     const Byte *before = slice.before + at, *density = slice.density + at;
     for (int i = 0; i < count; i += kLightLanes) {
       Words arrived, thick;
@@ -195,7 +193,7 @@ struct LightSweeps {
     const int count = light_row(slice.u);
     const std::size_t pitch = slice.row + kLightLanes;
     Word *left = slice.room + 8, *along = slice.room + pitch;
-    const auto row = [&](int v) { return along + static_cast<std::size_t>(v - slice.low + 2) * pitch; };
+    const auto row = [&](int v) { return along + (v - slice.low + 2) * pitch; };
     for (int v = slice.low - 2; v < slice.high + 2; ++v) {
       Word* const to = row(v);
       if (v >= 0 && v < slice.v)
@@ -205,7 +203,7 @@ struct LightSweeps {
     }
     for (int v = slice.low; v < slice.high; ++v) {
       const Word* const first = row(v - 2);
-      Byte* const to = slice.to + static_cast<std::size_t>(v) * slice.row_step;
+      Byte* const to = slice.to + v * slice.row_step;
       Bytes other{};
       for (int i = 0; i < count; i += kLightLanes) {
         Words a, b, c, d, e;
@@ -241,12 +239,12 @@ struct LightSweeps {
     const int count = light_row(slice.u), window = light_row(slice.u + 1);
     const Word part_u = word(slice.part_u), part_v = word(slice.part_v);
     const auto ray = [&](Word* rays, int a, int b) {
-      return rays + static_cast<std::size_t>(b + 1) * slice.ray_row + static_cast<std::size_t>(a + 1);
+      return rays + (b + 1) * slice.ray_row + static_cast<std::size_t>(a + 1);
     };
     // The light arrives.
     for (int v = 0; v < slice.v; ++v) {
       const Word *low = ray(slice.rays, slice.at_u, slice.at_v + v), *high = low + slice.ray_row;
-      Byte* const to = slice.to + static_cast<std::size_t>(v) * slice.row_step;
+      Byte* const to = slice.to + v * slice.row_step;
       Byte other = 0;
       VOXMELT_INDEPENDENT
       for (int i = 0; i < count; ++i) {
@@ -263,7 +261,7 @@ struct LightSweeps {
     std::memset(losses(slice.v), 0, slice.ray_row * sizeof(Word));
     Word* const own = slice.room + 8;
     for (int v = 0; v < slice.v; ++v) {
-      const Byte* density = slice.density + static_cast<std::size_t>(v) * slice.row_step;
+      const Byte* density = slice.density + v * slice.row_step;
       Word* const to = losses(v);
       VOXMELT_INDEPENDENT
       for (int i = 0; i < count; ++i) own[i] = loss_of(density[i]);
@@ -316,13 +314,13 @@ struct LightSweeps {
         Bytes block[16];
         for (int r = 0; r < 16; ++r) {
           if (i + r < x)
-            std::memcpy(&block[r], from + static_cast<std::size_t>(i + r) * from_row + j, sizeof(Bytes));
+            std::memcpy(&block[r], from + (i + r) * from_row + j, sizeof(Bytes));
           else
             block[r] = Bytes{};
         }
         for (int round = 0; round < 4; ++round) shuffle_all<8>(block);
         for (int r = 0; r < 16 && j + r < y; ++r) {
-          Byte* const at = to + static_cast<std::size_t>(j + r) * to_row + i;
+          Byte* const at = to + (j + r) * to_row + i;
           std::uint64_t old[2], fresh[2];
           std::memcpy(old, at, sizeof old);
           std::memcpy(fresh, &block[r], sizeof fresh);
@@ -342,7 +340,7 @@ struct LightSweeps {
       std::memcpy(cells, rows, sizeof cells);
       const int some = count - i < kLightLanes ? count - i : kLightLanes;
       for (int c = 0; c < some; ++c)
-        std::memcpy(to + static_cast<std::size_t>(i + c) * sizeof(LightBytes), &cells[c], sizeof cells[c]);
+        std::memcpy(to + (i + c) * sizeof(LightBytes), &cells[c], sizeof cells[c]);
     }
   }
 };

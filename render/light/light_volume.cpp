@@ -40,12 +40,12 @@ bool LightVolume::update(const LightMatter& matter, Vector to_light, int shift, 
   if (!changed && !other_lamp) return false;
 
   workers.run(static_cast<int>(kSides) + 1, [&](int task) {
-    Sweep& sweep = sweeps_[static_cast<std::size_t>(task)];
-    const auto rows = static_cast<std::size_t>(y_) * static_cast<std::size_t>(z_);
+    Sweep& sweep = sweeps_[task];
+    const auto rows = static_cast<std::size_t>(y_) * z_;
     sweep.open.assign(rows, 0);
     sweep.glow.assign(rows, 0);
     if (task == kSides) return sweep_lamp(sweep, other_lamp, loops);
-    const auto side = static_cast<std::size_t>(task);
+    const std::size_t side = task;
     sweep_side(side, open_[side], nullptr, sweep.open, sweep.turned_open, sweep, loops);
     if (glows) sweep_side(side, glow_[side], &emission_, sweep.glow, sweep.turned_glow, sweep, loops);
   });
@@ -59,8 +59,8 @@ void LightVolume::resize(const LightMatter& matter, int shift) {
   x_ = static_cast<int>(count_.x);
   y_ = static_cast<int>(count_.y);
   z_ = static_cast<int>(count_.z);
-  row_ = static_cast<std::size_t>(light_row(x_));
-  turned_row_ = static_cast<std::size_t>(light_row(y_));
+  row_ = light_row(x_);
+  turned_row_ = light_row(y_);
   const auto slices = [](int n) { return static_cast<std::size_t>(n); };
   const std::size_t natural = row_ * slices(y_) * slices(z_), turned = turned_row_ * slices(x_) * slices(z_);
   const bool glows = !matter.emission.cells.empty();
@@ -88,27 +88,25 @@ bool LightVolume::take_over(const LightMatter& matter, const LightLoops& loops) 
 
 bool LightVolume::take_over(const LightPlane& from, Plane& to, const LightLoops& loops) {
   bool any = false;
-  const auto x = static_cast<std::size_t>(x_);
+  const std::size_t x = x_;
   Bytes changed(x);
   for (int z = 0; z < z_; ++z) {
     bool here = false;
     for (int y = 0; y < y_; ++y) {
-      const auto row =
-          static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) + static_cast<std::size_t>(y);
+      const auto row = static_cast<std::size_t>(z) * y_ + y;
       std::uint8_t* const own = to.natural.data() + row * row_;
       const std::uint8_t* const fresh = from.cells.data() + row * x;
       if (std::memcmp(own, fresh, x) == 0) continue;
       std::memcpy(own, fresh, x);
-      dirty_[1][static_cast<std::size_t>(y)].add(z);
-      dirty_[2][static_cast<std::size_t>(z)].add(y);
+      dirty_[1][y].add(z);
+      dirty_[2][z].add(y);
       here = true;
     }
     if (!here) continue;
     any = true;
     std::fill(changed.begin(), changed.end(), 0);
-    loops.transpose(to.natural.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(y_) * row_,
-                    row_, y_, x_, to.turned.data() + static_cast<std::size_t>(z) * turned_row_,
-                    turned_row_ * static_cast<std::size_t>(z_), changed.data());
+    loops.transpose(to.natural.data() + static_cast<std::size_t>(z) * y_ * row_, row_, y_, x_,
+                    to.turned.data() + z * turned_row_, turned_row_ * z_, changed.data());
     for (std::size_t i = 0; i < x; ++i)
       if (changed[i] != 0) dirty_[0][i].add(z);
   }
@@ -128,17 +126,17 @@ void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emissi
                              Bytes& turned_changed, Sweep& sweep, const LightLoops& loops) const {
   const int axis = static_cast<int>(side / 2);
   const Way way = this->way(axis, side % 2 == 0);
-  const auto& dirty = dirty_[static_cast<std::size_t>(axis)];
+  const auto& dirty = dirty_[axis];
   std::uint8_t* const light = (way.turned ? plane.turned : plane.natural).data();
   const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
   const std::uint8_t* const sent =
       emission == nullptr ? nullptr : (way.turned ? emission->turned : emission->natural).data();
-  sweep.rows.assign(static_cast<std::size_t>(way.v), 0);
-  sweep.room.resize(static_cast<std::size_t>(way.v + 5) * (way.row + kLightLanes));
-  turned_changed.assign(static_cast<std::size_t>(z_), 0);
+  sweep.rows.assign(way.v, 0);
+  sweep.room.resize((way.v + 5) * (way.row + kLightLanes));
+  turned_changed.assign(z_, 0);
   Span last;
   for (int s = 1; s < way.slices; ++s) {
-    last.add(dirty[static_cast<std::size_t>(way.at(s - 1))]);
+    last.add(dirty[way.at(s - 1)]);
     if (!last.any()) continue;
     const std::size_t before = way.byte(s - 1);
     const Span rows{std::max(last.low - kReach, 0), std::min(last.high + kReach, way.v)};
@@ -147,16 +145,14 @@ void LightVolume::sweep_side(std::size_t side, Plane& plane, const Plane* emissi
                 sweep.room.data()});
     last = {};
     for (int v = rows.low; v < rows.high; ++v) {
-      if (sweep.rows[static_cast<std::size_t>(v)] == 0) continue;
+      if (sweep.rows[v] == 0) continue;
       last.add(v);
       if (way.turned)
-        turned_changed[static_cast<std::size_t>(v)] = 1;
+        turned_changed[v] = 1;
       else if (axis == 1)
-        changed[static_cast<std::size_t>(v) * static_cast<std::size_t>(y_) +
-                static_cast<std::size_t>(way.at(s))] = 1;
+        changed[static_cast<std::size_t>(v) * y_ + way.at(s)] = 1;
       else
-        changed[static_cast<std::size_t>(way.at(s)) * static_cast<std::size_t>(y_) +
-                static_cast<std::size_t>(v)] = 1;
+        changed[static_cast<std::size_t>(way.at(s)) * y_ + v] = 1;
     }
   }
   if (way.turned) turn_back(plane, turned_changed, changed, loops);
@@ -196,14 +192,14 @@ LightVolume::LampRays LightVolume::lamp_rays() const {
   rays.low_v = low(rays.slope_v);
   rays.count_u = rays.way.u + more(rays.slope_u);
   rays.count_v = rays.way.v + more(rays.slope_v);
-  rays.row = static_cast<std::size_t>(light_row(rays.count_u) + 3 * kLightLanes);
+  rays.row = light_row(rays.count_u) + 3 * kLightLanes;
   return rays;
 }
 
 // Returns the slice at which an update begins, and restores the rays before it. The rays are kept every
 // kKeptEvery slices. So an update begins near the first slice in which something changed.
 int LightVolume::begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep, Span& dark) const {
-  const std::size_t size = static_cast<std::size_t>(lamp.count_v + 2) * lamp.row;
+  const std::size_t size = (lamp.count_v + 2) * lamp.row;
   sweep.room.resize(size);
   sweep.losses.resize(static_cast<std::size_t>(lamp.way.v + 2) * lamp.row);
   sweep.rows.assign(static_cast<std::size_t>(lamp.way.v), 0);
@@ -214,11 +210,11 @@ int LightVolume::begin_lamp(const LampRays& lamp, bool other_lamp, Sweep& sweep,
     sweep.rays.assign(size, 255);
     return 0;
   }
-  const auto& dirty = dirty_[static_cast<std::size_t>(lamp.axis)];
+  const auto& dirty = dirty_[lamp.axis];
   int begin = 0;
-  while (begin < lamp.way.slices && !dirty[static_cast<std::size_t>(lamp.way.at(begin))].any()) ++begin;
+  while (begin < lamp.way.slices && !dirty[lamp.way.at(begin)].any()) ++begin;
   begin = std::min(begin / kKeptEvery, static_cast<int>(sweep.kept.size()) - 1) * kKeptEvery;
-  const Kept& kept = sweep.kept[static_cast<std::size_t>(begin / kKeptEvery)];
+  const Kept& kept = sweep.kept[begin / kKeptEvery];
   sweep.rays = kept.rays;
   dark = kept.dark;
   return begin;
@@ -247,7 +243,7 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
   const std::uint8_t* const density = (way.turned ? density_.turned : density_.natural).data();
   for (int s = begin; s < way.slices; ++s) {
     if (s % kKeptEvery == 0) {
-      const auto at = static_cast<std::size_t>(s / kKeptEvery);
+      const std::size_t at = s / kKeptEvery;
       if (sweep.kept.size() <= at) sweep.kept.resize(at + 1);
       if (s != begin || other_lamp) sweep.kept[at] = {sweep.rays, dark};
     }
@@ -265,17 +261,16 @@ void LightVolume::sweep_lamp(Sweep& sweep, bool other_lamp, const LightLoops& lo
 
 // Interleaves the rows that some sweep has changed.
 void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
-  const auto rows = static_cast<std::size_t>(y_);
+  const std::size_t rows = y_;
   workers.run(z_, [&](int z) {
-    for (std::size_t row = static_cast<std::size_t>(z) * rows; row < (static_cast<std::size_t>(z) + 1) * rows;
-         ++row) {
+    for (std::size_t row = z * rows; row < (static_cast<std::size_t>(z) + 1) * rows; ++row) {
       std::uint8_t open = 0, glow = 0;
       for (const Sweep& sweep : sweeps_) {
         open = static_cast<std::uint8_t>(open | sweep.open[row]);
         glow = static_cast<std::uint8_t>(glow | sweep.glow[row]);
       }
       const auto one = [&](const Plane& plane) { return plane.natural.data() + row * row_; };
-      auto* const to = reinterpret_cast<std::uint8_t*>(cells_.data() + row * static_cast<std::size_t>(x_));
+      auto* const to = reinterpret_cast<std::uint8_t*>(cells_.data() + row * x_);
       const std::uint8_t* const none = nothing_.data();
       if (open != 0)
         loops.interleave({one(lamp_), one(open_[0]), one(open_[1]), one(open_[2]), one(open_[3]),
@@ -290,7 +285,7 @@ void LightVolume::interleave(cpu::Workers& workers, const LightLoops& loops) {
 }
 
 picture::Light LightVolume::operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
-  const LightBytes& cell = cells_[static_cast<std::size_t>((z * count_.y + y) * count_.x + x)];
+  const LightBytes& cell = cells_[(z * count_.y + y) * count_.x + x];
   picture::Light light;
   light.lamp = cell.lamp;
   for (std::size_t side = 0; side < picture::kSides; ++side) {

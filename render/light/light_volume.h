@@ -55,7 +55,7 @@ class LightVolume {
         row_step;  // bytes of a row, to the next slice, to the next row
     bool from_high;
     int at(int slice) const { return from_high ? slices - 1 - slice : slice; }
-    std::size_t byte(int slice) const { return static_cast<std::size_t>(at(slice)) * slice_step; }
+    std::size_t byte(int slice) const { return at(slice) * slice_step; }
   };
   // Holds the lamp's rays before a slice, and the rows of them that may be darker than 255.
   struct Kept {

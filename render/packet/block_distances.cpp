@@ -23,8 +23,8 @@ class Bits {
  public:
   explicit Bits(const state::Grid& blocks)
       : words_((static_cast<std::size_t>(blocks.x) + 63) / 64),
-        y_(static_cast<std::size_t>(blocks.y)),
-        z_(static_cast<std::size_t>(blocks.z)),
+        y_(blocks.y),
+        z_(blocks.z),
         bits_(words_ * y_ * z_, 0) {}
 
   std::vector<std::uint64_t>& all() { return bits_; }
@@ -72,7 +72,7 @@ class Bits {
 std::vector<std::uint8_t> block_distances(const std::vector<std::uint8_t>& occupied,
                                           const state::Grid& blocks, int most) {
   Bits grown(blocks);
-  const auto x = static_cast<std::size_t>(blocks.x);
+  const std::size_t x = blocks.x;
   for (std::size_t r = 0; r < grown.rows(); ++r)
     for (std::size_t i = 0; i < x; ++i) grown.row(r)[i / 64] |= std::uint64_t{occupied[r * x + i]} << i % 64;
 

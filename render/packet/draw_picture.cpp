@@ -203,9 +203,7 @@ class TiledPicture {
   Image take() { return std::move(image_); }
 
  private:
-  std::uint8_t background(std::size_t c) const {
-    return (*data_.bytes)[static_cast<std::size_t>(data_.background[c])];
-  }
+  std::uint8_t background(std::size_t c) const { return (*data_.bytes)[data_.background[c]]; }
   Tile tile_at(int tile) const {
     const int x = tile % across_ * kTile, y = tile / across_ * kTile;
     return {x, y, std::min(x + kTile, data_.width), std::min(y + kTile, data_.height)};

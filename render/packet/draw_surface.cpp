@@ -23,7 +23,7 @@ void for_surfaces(const PictureData& data, const Packets& wanted, int threads, c
   cpu::Workers(std::min(threads, cpu::Workers::most())).run(across * data.height, [&](int index) {
     const int x0 = index % across * kRow, y = index / across;
     std::array<std::int32_t, kRow + kMostLanes> places[2], mask, numbers[6];
-    const auto count = static_cast<std::size_t>(std::min(kRow, data.width - x0));
+    const std::size_t count = std::min(kRow, data.width - x0);
     for (std::size_t i = 0; i < kRow + kMostLanes; ++i) {
       const auto x = x0 + static_cast<std::int64_t>(std::min(i, count - 1));
       places[0][i] = static_cast<std::int32_t>(x * picture::kPixel + picture::kMiddle[0].across);
@@ -33,8 +33,7 @@ void for_surfaces(const PictureData& data, const Packets& wanted, int threads, c
                  {mask.data(),
                   {numbers[0].data(), numbers[1].data(), numbers[2].data()},
                   {numbers[3].data(), numbers[4].data(), numbers[5].data()}});
-    const std::size_t first =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(data.width) + static_cast<std::size_t>(x0);
+    const std::size_t first = static_cast<std::size_t>(y) * data.width + x0;
     for (std::size_t i = 0; i < count; ++i)
       if (mask[i] != 0)
         found(first + i, picture::Vector{numbers[0][i], numbers[1][i], numbers[2][i]},
@@ -42,9 +41,7 @@ void for_surfaces(const PictureData& data, const Packets& wanted, int threads, c
   });
 }
 
-std::size_t pixels_of(const PictureData& data) {
-  return static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height);
-}
+std::size_t pixels_of(const PictureData& data) { return static_cast<std::size_t>(data.width) * data.height; }
 
 }  // namespace
 

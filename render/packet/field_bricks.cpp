@@ -21,8 +21,8 @@ BrickSource source_of(const state::Grid& grid, const state::Grid& brick) {
   const state::Grid first{brick.x * kBrickSide, brick.y * kBrickSide, brick.z * kBrickSide};
   BrickSource source;
   for (int i = 0; i < BrickSource::kWide; ++i) {
-    source.rows[static_cast<std::size_t>(i)] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
-    source.slices[static_cast<std::size_t>(i)] = grid.index(0, 0, std::clamp(first.z + i - 1, 0, grid.z - 1));
+    source.rows[i] = grid.index(0, std::clamp(first.y + i - 1, 0, grid.y - 1), 0);
+    source.slices[i] = grid.index(0, 0, std::clamp(first.z + i - 1, 0, grid.z - 1));
   }
   source.x = first.x;
   source.cells_x = grid.x;
@@ -101,7 +101,7 @@ void FieldBricks::update(const DensityField& field, const picture::Look& look,
   fill_all(field, look, stale, workers, loops);
   std::vector<std::uint8_t> others(bricks.size());
   workers.run(static_cast<int>(bricks.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     others[at] = stale.touched[bricks[at]] != 0 && find_ranges(bricks[at], loops) ? 1 : 0;
   });
   if (!moved && std::find(others.begin(), others.end(), 1) == others.end()) return;
@@ -150,7 +150,7 @@ std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stal
     }
     if (slot == 0) {
       slot = take();
-      const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(slot) * kPlaces);
+      const std::ptrdiff_t first = slot * kPlaces;
       std::fill_n(levels_.begin() + first, kPlaces, picture::kAir);
       std::fill_n(matter_.begin() + first, kPlaces, 0);
       for_near(grid, at, -1, 0,
@@ -172,7 +172,7 @@ void FieldBricks::fill_all(const DensityField& field, const picture::Look& look,
     if (stale.source[brick] != 0) sources.push_back(brick);
   std::vector<std::uint8_t> filled(sources.size());
   workers.run(static_cast<int>(sources.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     filled[at] = fill(field, matter, sources[at], stale.source[sources[at]] == kWhole, loops) ? 1 : 0;
   });
   std::fill(stale.touched.begin(), stale.touched.end(), 0);
@@ -245,11 +245,11 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
   for (int b = 0; b < 8; ++b) {
     const state::Grid next{at.x + (b & 1), at.y + ((b >> 1) & 1), at.z + (b >> 2)};
     if (!bricks_.contains(next.x, next.y, next.z)) continue;
-    const auto slot = static_cast<std::size_t>(slots_[bricks_.index(next.x, next.y, next.z)]);
+    const std::size_t slot = slots_[bricks_.index(next.x, next.y, next.z)];
     if (slot == 0) continue;
     any = true;
-    to.levels[static_cast<std::size_t>(b)] = levels_.data() + slot * kPlaces;
-    to.matter[static_cast<std::size_t>(b)] = matter_.data() + slot * kPlaces;
+    to.levels[b] = levels_.data() + slot * kPlaces;
+    to.matter[b] = matter_.data() + slot * kPlaces;
   }
   if (!any) {
     mixed_[brick] = 0;
@@ -268,10 +268,10 @@ bool FieldBricks::fill(const DensityField& field, const MatterSource& matter, st
 // Finds the ranges of levels. Tells whether other blocks are occupied now.
 bool FieldBricks::find_ranges(std::size_t brick, const BrickLoops& loops) {
   BlockRanges ranges;
-  loops.ranges(levels_.data() + static_cast<std::size_t>(slots_[brick]) * kPlaces, ranges);
+  loops.ranges(levels_.data() + slots_[brick] * kPlaces, ranges);
   bool moved = false;
   for (int b = 0; b < 8; ++b) {
-    const auto i = static_cast<std::size_t>(b);
+    const std::size_t i = b;
     const std::size_t block = block_of(brick, b);
     const std::uint8_t occupied = ranges.most[i] >= 0 ? 1 : 0;
     moved = moved || occupied != occupied_[block];
@@ -298,7 +298,7 @@ void FieldBricks::find_distances() {
 
 void FieldBricks::find_box() {
   int low[3] = {blocks_.x, blocks_.y, blocks_.z}, high[3] = {0, 0, 0};
-  const auto row = static_cast<std::size_t>(blocks_.x);
+  const std::size_t row = blocks_.x;
   for (int z = 0; z < blocks_.z; ++z)
     for (int y = 0; y < blocks_.y; ++y) {
       if (std::memchr(occupied_.data() + blocks_.index(0, y, z), 1, row) == nullptr) continue;

@@ -8,11 +8,11 @@ namespace voxmelt::render {
 std::vector<std::int32_t> GroundColumns::around(const ColumnHeights& heights) const {
   const picture::Vector cells = shape_.cells;
   std::vector<std::int32_t> all;
-  all.reserve(static_cast<std::size_t>((cells.x + 3) * (cells.z + 3)));
+  all.reserve((cells.x + 3) * (cells.z + 3));
   for (std::int64_t z = -kGroundBefore; z < cells.z + kGroundBehind; ++z)
     for (std::int64_t x = -kGroundBefore; x < cells.x + kGroundBehind; ++x)
-      all.push_back(heights[static_cast<std::size_t>(std::clamp<std::int64_t>(z, 0, cells.z - 1) * cells.x +
-                                                     std::clamp<std::int64_t>(x, 0, cells.x - 1))]);
+      all.push_back(heights[std::clamp<std::int64_t>(z, 0, cells.z - 1) * cells.x +
+                            std::clamp<std::int64_t>(x, 0, cells.x - 1)]);
   return all;
 }
 

@@ -145,8 +145,7 @@ class Painter {
                              picture::before_surface(position, normal, scene_.light_shift), watch_);
   }
   picture::Color pressed(picture::Color color) const {
-    for (std::int32_t& c : color)
-      c = scene_.tone[static_cast<std::size_t>(std::clamp(c, 0, picture::kBrightest))];
+    for (std::int32_t& c : color) c = scene_.tone[std::clamp(c, 0, picture::kBrightest)];
     watch_(Stage::pixel, "pressed", color);
     return color;
   }

@@ -21,8 +21,7 @@ const std::uint32_t* inverse_roots() {
   static constexpr auto table = [] {
     std::array<std::uint32_t, picture::kInverseRoot.size() - 1> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint32_t>(picture::kInverseRoot[i] |
-                                             (picture::kInverseRoot[i] - picture::kInverseRoot[i + 1]) << 16);
+      values[i] = picture::kInverseRoot[i] | (picture::kInverseRoot[i] - picture::kInverseRoot[i + 1]) << 16;
     return values;
   }();
   return table.data();

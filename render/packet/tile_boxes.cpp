@@ -26,7 +26,7 @@ void take_in(BlockBox& box, const BlockBox& other) {
 TileBoxes::TileBoxes(const PictureData& data, const Projection& projection, int side)
     : across_((data.width + side - 1) / side), down_((data.height + side - 1) / side) {
   const bool apart = data.view.near > 0;
-  const auto tiles = static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_);
+  const auto tiles = static_cast<std::size_t>(across_) * down_;
   boxes_.assign(tiles, apart ? kNothing : BlockBox{{0, 0, 0}, {kFar, kFar, kFar}});
   if (!apart) return;
   const double places = static_cast<double>(side * picture::kPixel);
@@ -43,13 +43,12 @@ TileBoxes::TileBoxes(const PictureData& data, const Projection& projection, int 
     };
     const int x1 = end(area.right, across_), y1 = end(area.bottom, down_);
     for (int y = first(area.top, down_); y < y1; ++y)
-      for (int x = first(area.left, across_); x < x1; ++x)
-        take_in(boxes_[static_cast<std::size_t>(y * across_ + x)], box);
+      for (int x = first(area.left, across_); x < x1; ++x) take_in(boxes_[y * across_ + x], box);
   }
 }
 
 bool TileBoxes::narrow(int tile, FieldData& field) const {
-  const BlockBox& box = boxes_[static_cast<std::size_t>(tile)];
+  const BlockBox& box = boxes_[tile];
   if (box.low[0] >= box.high[0]) {
     field.high = field.low = {};
     return false;

@@ -11,7 +11,7 @@ namespace {
 Values<std::uint16_t> along(const Values<std::uint16_t>& from, int side, std::size_t stride) {
   Values<std::uint16_t> to(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const auto place = static_cast<int>(i / stride % static_cast<std::size_t>(side));
+    const auto place = static_cast<int>(i / stride % side);
     const std::size_t before = place > 0 ? i - stride : i, after = place < side - 1 ? i + stride : i;
     to[i] = static_cast<std::uint16_t>(picture::prefiltered(from[before], from[i], from[after]));
   }

@@ -70,7 +70,7 @@ class ReferencePixels {
     Rgb bytes{};
     for (std::size_t c = 0; c < 3; ++c) {
       light[c] = (light[c] + count / 2) / count;
-      bytes[c] = byte_table()[static_cast<std::size_t>(light[c])];
+      bytes[c] = byte_table()[light[c]];
     }
     watch_(picture::Stage::pixel, "samples", count);
     watch_(picture::Stage::pixel, "light", light);

@@ -31,7 +31,7 @@ VOXMELT_RULE Passing passing_table() {
   Passing table{};
   std::int64_t left = std::int64_t{1} << 30;
   for (std::int32_t i = 0; i < kNothingPasses; ++i) {
-    table[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(rounded(left, 30 - kPassedBits));
+    table[i] = static_cast<std::uint16_t>(rounded(left, 30 - kPassedBits));
     left = rounded(left * kStep, 30);
   }
   return table;
@@ -57,7 +57,7 @@ VOXMELT_RULE Color passed(const Passing& table, const Color& losses, Left left) 
   Color color{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::int32_t i = std::min(((left.way >> 8) * losses[c]) >> 12, kNothingPasses);
-    color[c] = (left.surfaces * table[static_cast<std::size_t>(i)]) >> kLightBits;
+    color[c] = (left.surfaces * table[i]) >> kLightBits;
   }
   return color;
 }
@@ -82,7 +82,7 @@ VOXMELT_RULE std::int32_t thinned(std::int32_t density, std::int32_t share) {
 // green light that does not pass through its width.
 VOXMELT_RULE std::int32_t density_share(const Passing& table, const Color& losses, int shift) {
   const std::int32_t i = std::min(((1 << (shift + 8)) * losses[1]) >> 12, kNothingPasses);
-  return (180 * (256 - (table[static_cast<std::size_t>(i)] >> 7))) >> 8;
+  return (180 * (256 - (table[i] >> 7))) >> 8;
 }
 
 // Returns the light at a place in clear matter, from all sides. kLight is 1.

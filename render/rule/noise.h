@@ -28,7 +28,7 @@ VOXMELT_RULE std::int32_t lattice(Vector point, std::uint32_t kind) {
   h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
   h = (h ^ (h >> 12)) * 0x297A2D39u;
   h ^= h >> 15;
-  return static_cast<std::int32_t>(h >> (31 - kNoiseBits)) - (1 << kNoiseBits);
+  return (h >> (31 - kNoiseBits)) - (1 << kNoiseBits);
 }
 
 // Returns the noise at a position in 2^-20 of the lattice's spacing.
@@ -52,7 +52,7 @@ VOXMELT_RULE std::int32_t layered_noise(Vector position, int spacing, int octave
   Vector p = position >> spacing;
   std::int32_t sum = 0;
   for (int i = 0; i < octaves; ++i) {
-    sum += noise(p, kind + static_cast<std::uint32_t>(i)) >> i;
+    sum += noise(p, kind + i) >> i;
     p = Vector{p.z, p.x, p.y} * 2 + kOctaveMoved;
   }
   return sum * 9 >> 4;

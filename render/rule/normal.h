@@ -36,7 +36,7 @@ inline constexpr auto kInverseRoot = [] {
 // Returns 2^15 / sqrt(m / 2^30) for 2^30 <= m < 2^32, by a straight line between two entries.
 template <class Watch = Silent>
 VOXMELT_RULE std::int64_t inverse_root(std::int64_t m, Watch watch = {}) {
-  const auto i = static_cast<std::size_t>((m >> 23) - kRootFirst);
+  const std::size_t i = (m >> 23) - kRootFirst;
   const std::int64_t root =
       kInverseRoot[i] - rounded((kInverseRoot[i] - kInverseRoot[i + 1]) * (m & 0x7FFFFF), 23);
   watch(Stage::unit, "m", m);
@@ -109,9 +109,7 @@ VOXMELT_RULE Vector normal_at(const Levels& levels, Vector position, Watch watch
     Three slopes{}, values{};
     for (std::size_t j = 0; j < 3; ++j) {
       Three row{};
-      for (std::size_t i = 0; i < 3; ++i)
-        row[i] = levels(x.cell + static_cast<std::int64_t>(i) - 1, y.cell + static_cast<std::int64_t>(j) - 1,
-                        z.cell + static_cast<std::int64_t>(k) - 1);
+      for (std::size_t i = 0; i < 3; ++i) row[i] = levels(x.cell + i - 1, y.cell + j - 1, z.cell + k - 1);
       slopes[j] = splined(row, x.slope, 9);
       values[j] = splined(row, x.value, 8);
       watch(Stage::normal, "along x", std::array{slopes[j], values[j]});

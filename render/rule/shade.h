@@ -106,7 +106,7 @@ template <class Watch = Silent>
 VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction, Watch watch = {}) {
   const auto height =
       static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
-  const std::uint32_t packed = paint.surroundings[static_cast<std::size_t>(height >> 4)];
+  const std::uint32_t packed = paint.surroundings[height >> 4];
   const Color around{static_cast<std::int32_t>(packed & 2047) << 1,
                      static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
                      static_cast<std::int32_t>(packed >> 22) << 2};
@@ -158,7 +158,7 @@ VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int3
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
   Substance substance{mixed(paint.solid, paint.liquid, liquid)};
   if (paint.glow) {
-    const auto heat = static_cast<std::size_t>(matter.heat);
+    const std::size_t heat = matter.heat;
     for (std::size_t c = 0; c < 3; ++c) {
       substance.material.diffuse[c] += (paint.glow_colors.crust[heat][c] * liquid) >> kLightBits;
       substance.emission[c] =

@@ -26,14 +26,14 @@ using Highlight = std::array<std::uint16_t, 1026>;
 VOXMELT_RULE Highlight highlight_of(std::int32_t exponent) {
   Highlight table{};
   for (std::int32_t i = 0; i <= 1024; ++i)
-    table[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(power(32 * i, exponent) >> 3);
+    table[i] = static_cast<std::uint16_t>(power(32 * i, exponent) >> 3);
   table[1025] = table[1024];
   return table;
 }
 
 // Interpolates between two entries, for a cosine 0 .. kLength.
 VOXMELT_RULE std::int32_t highlight_at(const Highlight& table, std::int32_t cosine) {
-  const auto i = static_cast<std::size_t>(cosine >> 4);
+  const std::size_t i = cosine >> 4;
   return table[i] + (((table[i + 1] - table[i]) * (cosine & 15)) >> 4);
 }
 
@@ -60,8 +60,7 @@ VOXMELT_RULE Surroundings surroundings_of(const Look& look) {
     const auto part = [](std::int32_t value, std::int32_t most) {
       return static_cast<std::uint32_t>(std::clamp((value * most + kLight / 2) >> kLightBits, 0, most));
     };
-    table[static_cast<std::size_t>(i)] =
-        part(seen[0], 2047) | part(seen[1], 2047) << 11 | part(seen[2], 1023) << 22;
+    table[i] = part(seen[0], 2047) | part(seen[1], 2047) << 11 | part(seen[2], 1023) << 22;
   }
   return table;
 }
@@ -82,7 +81,7 @@ VOXMELT_RULE Glow glow_table() {
     const auto scaled = [](std::int64_t a, std::int64_t by) {
       return static_cast<std::int32_t>(rounded(a * by, 16));
     };
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     table.light[at] = {scaled(product(product(h, root), fourth), 9421), scaled(product(h4, root), 4710),
                        scaled(h8, 819)};
     table.crust[at] = mixed(kCold, kHot, static_cast<std::int32_t>(h >> 4));

@@ -20,12 +20,11 @@ VOXMELT_RULE Tone tone_table() {
   std::int64_t left = std::int64_t{1} << 30;
   for (std::int32_t i = 0; i <= kBrightest; ++i) {
     if (i <= kShoulder) {
-      table[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+      table[i] = static_cast<std::uint16_t>(i);
       continue;
     }
     left = rounded(left * kStep, 30);
-    table[static_cast<std::size_t>(i)] =
-        static_cast<std::uint16_t>(kShoulder + kShoulderRange - rounded(left * kShoulderRange, 30));
+    table[i] = static_cast<std::uint16_t>(kShoulder + kShoulderRange - rounded(left * kShoulderRange, 30));
   }
   return table;
 }
@@ -56,7 +55,7 @@ VOXMELT_RULE Bytes byte_table() {
   std::size_t byte = 0;
   for (std::int32_t light = 0; light <= kLight; ++light) {
     while (byte < kByteLimits.size() && kByteLimits[byte] <= light) ++byte;
-    table[static_cast<std::size_t>(light)] = static_cast<std::uint8_t>(byte);
+    table[light] = static_cast<std::uint8_t>(byte);
   }
   return table;
 }

@@ -29,12 +29,12 @@ std::string text_of(const Difference& d) {
 Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
     : expectation_(expectation),
       caster_(caster),
-      width_(static_cast<std::size_t>(width)),
+      width_(width),
       height_(height),
       transit_(caster, [this](Difference difference) { tell(std::move(difference)); }),
       tile_check_(width, height, [this](Difference difference) { tell(std::move(difference)); }),
       memory_check_([this](Difference difference) { tell(std::move(difference)); }) {
-  bytes_.resize(static_cast<std::size_t>(frame_bytes(width, height)));
+  bytes_.resize(frame_bytes(width, height));
   tiles_x_ = (width + kTileSide - 1) / kTileSide;
 }
 
@@ -56,8 +56,8 @@ void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window
     std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
   else
     first_ = bytes_;
-  const std::size_t pixels = width_ * static_cast<std::size_t>(height_);
-  places_.assign(pixels * static_cast<std::size_t>(samples), -1);
+  const std::size_t pixels = width_ * height_;
+  places_.assign(pixels * samples, -1);
   sums_.assign(pixels, {});
   rays_.clear();
   free_.clear();
@@ -73,9 +73,9 @@ void Checker::end_pass(const FrameEnd& end) {
 std::optional<RayId> Checker::ray_under_way() const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (places_[i] < 0) continue;
-    const std::size_t pixel = i / static_cast<std::size_t>(samples_);
+    const std::size_t pixel = i / samples_;
     return RayId{static_cast<std::int32_t>(pixel % width_), static_cast<std::int32_t>(pixel / width_),
-                 static_cast<std::int16_t>(i % static_cast<std::size_t>(samples_)), 0};
+                 static_cast<std::int16_t>(i % samples_), 0};
   }
   return {};
 }
@@ -94,15 +94,11 @@ void Checker::tell(Difference difference) {
   difference_ = std::move(difference);
 }
 
-std::size_t Checker::index_of(const RayId& id) const {
-  return (static_cast<std::size_t>(id.y) * width_ + static_cast<std::size_t>(id.x)) *
-             static_cast<std::size_t>(samples_) +
-         static_cast<std::size_t>(id.sample);
-}
+std::size_t Checker::index_of(const RayId& id) const { return (id.y * width_ + id.x) * samples_ + id.sample; }
 
 std::size_t Checker::byte_of(int x, int y) const {
   const int tile = y / kTileSide * tiles_x_ + x / kTileSide;
-  return static_cast<std::size_t>(tile * kTileBytes + 3 * (y % kTileSide * kTileSide + x % kTileSide));
+  return tile * kTileBytes + 3 * (y % kTileSide * kTileSide + x % kTileSide);
 }
 
 bool Checker::drawn_again(int x, int y) const {
@@ -127,10 +123,9 @@ ExpectedRay& Checker::ray(const RayId& id) {
     place = free_.back();
     free_.pop_back();
     const Sub sub = sub_of(samples_, id.sample);
-    rays_[static_cast<std::size_t>(place)] =
-        expectation_.ray(64 * std::int64_t{id.x} + sub.across, 64 * std::int64_t{id.y} + sub.down);
+    rays_[place] = expectation_.ray(64 * std::int64_t{id.x} + sub.across, 64 * std::int64_t{id.y} + sub.down);
   }
-  return rays_[static_cast<std::size_t>(place)];
+  return rays_[place];
 }
 ExpectedRay& Checker::shaded(const RayId& id) {
   ExpectedRay& expected_ray = ray(id);
@@ -179,7 +174,7 @@ void Checker::entered(int, std::int64_t, const LevelRequest* token) {
 
 void Checker::entered(int, std::int64_t, const Levels* token) {
   const Places places = token->request.places();
-  const auto side = static_cast<std::size_t>(places.side);
+  const std::size_t side = places.side;
   const Vec position = from_lattice(token->request.at);
   std::array<std::int16_t, 27> expected{};
   std::array<std::int16_t, 27> actual{};
@@ -355,7 +350,7 @@ void Checker::entered(int, std::int64_t, const PressedToken* token) {
   const ExpectedRay& ray = shaded(token->id);
   compare("press", token->id, "pressed", ray.pressed, token->pressed);
   const std::size_t i = index_of(token->id);
-  for (std::size_t c = 0; c < 3; ++c) sums_[i / static_cast<std::size_t>(samples_)][c] += ray.pressed[c];
+  for (std::size_t c = 0; c < 3; ++c) sums_[i / samples_][c] += ray.pressed[c];
   free_.push_back(places_[i]);  // the ray has come to its end
   places_[i] = -1;
 }
@@ -363,16 +358,15 @@ void Checker::entered(int, std::int64_t, const PressedToken* token) {
 void Checker::entered(int, std::int64_t, const PixelToken* token) {
   RayId id = token->id;
   id.sample = 0;
-  const Rgb& sum = sums_[index_of(id) / static_cast<std::size_t>(samples_)];
+  const Rgb& sum = sums_[index_of(id) / samples_];
   std::array<std::uint8_t, 3> expected{};
   for (std::size_t c = 0; c < 3; ++c) {
     // The sum exceeds full light if a ray came twice. Its channel has told that.
     const std::int32_t light = std::min<std::int32_t>((sum[c] + samples_ / 2) / samples_, picture::kLight);
-    expected[c] = render::byte_table()[static_cast<std::size_t>(light)];
+    expected[c] = render::byte_table()[light];
   }
   compare("pixel", token->id, "bytes", expected, token->bytes);
-  std::copy(expected.begin(), expected.end(),
-            bytes_.begin() + static_cast<std::ptrdiff_t>(byte_of(id.x, id.y)));
+  std::copy(expected.begin(), expected.end(), bytes_.begin() + byte_of(id.x, id.y));
 }
 
 // Beyond the edges of the picture, a tile holds zeros.

@@ -39,8 +39,7 @@ void Checker::compare_clear(Channel behind, const Surface& token) {
   const ExpectedClear& clear = ray.clear;
   const auto events = static_cast<std::int32_t>(clear.events.size()), event = token.clear.event;
   const bool goes_on = token.kind == Surface::Kind::matter || token.kind == Surface::Kind::way;
-  if (goes_on && event < events)
-    return compare_surface(behind, clear.events[static_cast<std::size_t>(event)], token, ray);
+  if (goes_on && event < events) return compare_surface(behind, clear.events[event], token, ray);
   if (clear.dark && event >= events) return;
   compare("stretch", token.id, "events", events, goes_on ? event + 1 : event);
   compare_surface(behind, ray.surface, token, ray);

@@ -56,14 +56,14 @@ void compare_bricks(Comparison& to, const char* volume, const Layout& layout, co
     for (int by = 0; by < bricks.y; ++by)
       for (int bx = 0; bx < bricks.x; ++bx) {
         const state::Grid b{bx, by, bz};
-        const auto slot = static_cast<std::size_t>(field.slots[bricks.index(bx, by, bz)]);
+        const std::size_t slot = field.slots[bricks.index(bx, by, bz)];
         const bool stored = layout.brick_at(bx, by, bz) != 0;
         if (slot == 0 && !stored) continue;
         for (int z = low; z <= high; ++z)
           for (int y = low; y <= high; ++y)
             for (int x = low; x <= high; ++x) {
               const state::Grid place{8 * bx + x, 8 * by + y, 8 * bz + z};
-              const auto i = static_cast<std::size_t>(((z + 1) * 11 + (y + 1)) * 11 + x + 1);
+              const std::size_t i = ((z + 1) * 11 + (y + 1)) * 11 + x + 1;
               const Word expected = slot == 0 ? absent : from[slot * render::kBrickVolume + i];
               const Word actual =
                   stored ? to.read<Word>(address_of(layout, b, place.x, place.y, place.z)) : absent;
@@ -99,7 +99,7 @@ void compare_ground(Comparison& to, const Memory& memory, const render::GroundDa
     const int x = i % wide, z = i / wide;
     const auto texel = to.read<Texel>(memory.texels.address(memory.texels.line_at(x / 4, 0, z / 4)) +
                                       memory.texels.offset(x, 0, z));
-    const picture::Texel& expected = texels[static_cast<std::size_t>(i)];
+    const picture::Texel& expected = texels[i];
     to.word("texel red", {}, {x, 0, z}, expected.red, texel.red);
     to.word("texel green", {}, {x, 0, z}, expected.green, texel.green);
     to.word("texel blue", {}, {x, 0, z}, expected.blue, texel.blue);
@@ -135,22 +135,20 @@ void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::Gr
   to.word("blocks of ground along z", {}, {}, deep, blocks.z);
   if (to.found.first) return;
   const LeastBounds x(nx, wide), z(nz, deep);
-  std::vector<GroundBlock> fine(static_cast<std::size_t>(wide) * static_cast<std::size_t>(deep));
-  std::vector<std::int32_t> rough(static_cast<std::size_t>(coarse) *
-                                  static_cast<std::size_t>((deep + 3) / 4));
+  std::vector<GroundBlock> fine(static_cast<std::size_t>(wide) * deep);
+  std::vector<std::int32_t> rough(static_cast<std::size_t>(coarse) * ((deep + 3) / 4));
   const auto height = [&](int cx, int cz) { return ground.drawn[std::ptrdiff_t{cz} * ground.row + cx]; };
   const auto raise = [](std::int32_t& bound, std::int32_t by) { bound = std::max(bound, (by + 63) / 64); };
   for (int cz = 0; cz < nz; ++cz)
     for (int cx = 0; cx < nx; ++cx) {
       const auto demand = [&](int more_x, int more_z, const auto& one) {
         if (cx + more_x >= nx || cz + more_z >= nz) return;
-        x.readers(cx, more_x, [&](int bx) {
-          z.readers(cz, more_z, [&](int bz) { one(static_cast<std::size_t>(bz * wide + bx), bx, bz); });
-        });
+        x.readers(cx, more_x,
+                  [&](int bx) { z.readers(cz, more_z, [&](int bz) { one(bz * wide + bx, bx, bz); }); });
       };
       demand(0, 0, [&](std::size_t i, int bx, int bz) {
         raise(fine[i].highest, height(cx, cz));
-        raise(rough[static_cast<std::size_t>(bz / 4 * coarse + bx / 4)], height(cx, cz));
+        raise(rough[bz / 4 * coarse + bx / 4], height(cx, cz));
       });
       demand(1, 0, [&](std::size_t i, int, int) {
         raise(fine[i].slope_x, std::abs(height(cx + 1, cz) - height(cx, cz)));

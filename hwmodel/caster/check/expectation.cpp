@@ -20,15 +20,14 @@ Expectation::Expectation(const render::PictureScene& scene, const picture::Camer
       view_(picture::view_of(camera, scene.levels.cells())),
       spacing_(render::spacing_of(setting, view_)) {
   const picture::Vector cells = scene.levels.cells();
-  row_ = static_cast<std::size_t>(cells.x + 1);
-  slice_ = row_ * static_cast<std::size_t>(cells.y + 1);
-  air_.assign(slice_ * static_cast<std::size_t>(cells.z + 1), 255);
+  row_ = cells.x + 1;
+  slice_ = row_ * (cells.y + 1);
+  air_.assign(slice_ * (cells.z + 1), 255);
   for (std::int64_t z = 0; z < cells.z; ++z)
     for (std::int64_t y = 0; y < cells.y; ++y)
       for (std::int64_t x = 0; x < cells.x; ++x) {
         if (scene.levels(x, y, z) < 0) continue;
-        const std::size_t i = static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_ +
-                              static_cast<std::size_t>(x);
+        const std::size_t i = z * slice_ + y * row_ + x;
         for (const std::size_t more : {std::size_t{0}, slice_})
           for (const std::size_t beside : {std::size_t{0}, row_})
             air_[i + more + beside] = air_[i + more + beside + 1] = 0;
@@ -172,7 +171,7 @@ void Expectation::shade_matter(ExpectedRay& ray) const {
 Rgb Expectation::pressed(const Rgb& sum) {
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c)
-    color[c] = render::tone_table()[static_cast<std::size_t>(std::clamp(sum[c], 0, picture::kBrightest))];
+    color[c] = render::tone_table()[std::clamp(sum[c], 0, picture::kBrightest)];
   return color;
 }
 

@@ -24,7 +24,7 @@ struct ExpectedClear {
   const picture::Crossing* entry(int span) const { return at(entries, span); }
   const picture::Crossing* exit(int span) const { return at(exits, span); }
   static const picture::Crossing* at(const std::vector<picture::Crossing>& all, int span) {
-    const auto i = static_cast<std::size_t>(span);
+    const std::size_t i = span;
     return i < all.size() ? &all[i] : nullptr;
   }
 };

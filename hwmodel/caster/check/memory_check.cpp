@@ -20,7 +20,7 @@ std::string text_of(const LineReply& reply) {
 }  // namespace
 
 std::vector<LineReply>& MemoryCheck::of_pipe(int channel) {
-  const auto pipe = static_cast<std::size_t>(channel / kChannelsOfAPipe);
+  const std::size_t pipe = channel / kChannelsOfAPipe;
   if (pipe >= under_way_.size()) under_way_.resize(pipe + 1);
   return under_way_[pipe];
 }

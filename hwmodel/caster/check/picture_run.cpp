@@ -212,7 +212,7 @@ PictureReport PictureRun::report() {
   if (waves_) waves_->end();
   if (waves_ && !waves_->empty()) report_.waves = waves_->vcd();
   report_.memory = caster_.memory_counts();
-  report_.memory_bytes = static_cast<std::int64_t>(memory_.bytes.size());
+  report_.memory_bytes = memory_.bytes.size();
   report_.cost = cost_of(options_.configuration, registers_, memory_);
   take_accounts(report_, caster_);
   return report_;

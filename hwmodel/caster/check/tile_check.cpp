@@ -19,13 +19,11 @@ TileCheck::TileCheck(int width, int height, Tell tell)
 
 void TileCheck::begin_pass(const Window& window) {
   window_ = window;
-  tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_),
-                {0, 0, std::vector<std::uint8_t>(kBursts)});
+  tiles_.assign(static_cast<std::size_t>(tiles_x_) * tiles_y_, {0, 0, std::vector<std::uint8_t>(kBursts)});
 }
 
 std::size_t TileCheck::index_of(std::int32_t x, std::int32_t y) const {
-  return static_cast<std::size_t>(y / kTileSide) * static_cast<std::size_t>(tiles_x_) +
-         static_cast<std::size_t>(x / kTileSide);
+  return static_cast<std::size_t>(y / kTileSide) * tiles_x_ + (x / kTileSide);
 }
 
 void TileCheck::left(int, std::int64_t, const TileJob* job) {
@@ -40,10 +38,10 @@ void TileCheck::ordered(const TileOrder& order) {
 void TileCheck::pixel_complete(std::int32_t x, std::int32_t y) { --tiles_[index_of(x, y)].pixels_left; }
 
 void TileCheck::written(std::int64_t tile, int burst) {
-  const auto i = static_cast<std::size_t>(tile);
+  const std::size_t i = tile;
   Tile& the_tile = tiles_[i];
   if (the_tile.pixels_left != 0) tell(i, "write", "pixels that are still to come", 0, the_tile.pixels_left);
-  std::uint8_t& times = the_tile.bursts[static_cast<std::size_t>(burst)];
+  std::uint8_t& times = the_tile.bursts[burst];
   if (++times > 1) tell(i, "write", "times a burst is written", 1, times);
 }
 
@@ -64,7 +62,7 @@ void TileCheck::end_pass(bool hangs) {
 }
 
 RayId TileCheck::first_pixel(std::size_t tile) const {
-  const auto tiles_x = static_cast<std::size_t>(tiles_x_);
+  const std::size_t tiles_x = tiles_x_;
   return {static_cast<std::int32_t>(tile % tiles_x) * kTileSide,
           static_cast<std::int32_t>(tile / tiles_x) * kTileSide, 0, 0};
 }

@@ -30,7 +30,7 @@ Watchers Transit::around(Watchers w) {
 }
 
 Transit::Line& Transit::line(int channel) {
-  const auto i = static_cast<std::size_t>(channel);
+  const std::size_t i = channel;
   if (i >= under_way_.size()) under_way_.resize(i + 1);
   return under_way_[i];
 }
@@ -58,7 +58,7 @@ void Transit::look_for_lost() {
     for (const Pipe::ChannelState& channel : caster_.pipe(i).channels()) {
       const Line& the_line = line(channel.number);
       if (static_cast<int>(the_line.tokens.size()) <= channel.count) continue;
-      const RayId& id = the_line.tokens[static_cast<std::size_t>(channel.count)].id;
+      const RayId& id = the_line.tokens[channel.count].id;
       return tell(channel.number, id, "leaves", text_of(id), "nothing");
     }
 }

@@ -57,8 +57,8 @@ class Planted : public check::Planted<FaultPlan> {
       const auto inside = [](std::int64_t cell, std::int64_t cells) {
         return static_cast<int>(std::clamp<std::int64_t>(cell, 0, cells - 1));
       };
-      const int cx = inside(x.cell + static_cast<std::int64_t>(n & 1), registers_->cells.x);
-      const int cz = inside(z.cell + static_cast<std::int64_t>(n >> 1), registers_->cells.z);
+      const int cx = inside(x.cell + (n & 1), registers_->cells.x);
+      const int cz = inside(z.cell + (n >> 1), registers_->cells.z);
       Column column;
       std::memcpy(&column,
                   memory_->bytes.data() +

@@ -33,8 +33,7 @@ class TileFaults : public Planted {
   void pressed(const LookRegisters& look, const Surface& surface, PressedToken& token) {
     if (!armed(Fault::press_tone) || surface.kind == Surface::Kind::background) return;
     Rgb wrong{};
-    for (std::size_t c = 0; c < 3; ++c)
-      wrong[c] = look.tone[static_cast<std::size_t>(std::clamp(surface.sum[c] + 1, 0, 12287))];
+    for (std::size_t c = 0; c < 3; ++c) wrong[c] = look.tone[std::clamp(surface.sum[c] + 1, 0, 12287)];
     replace("press", token.id, token.pressed, wrong);
   }
 
@@ -42,7 +41,7 @@ class TileFaults : public Planted {
     std::array<std::uint8_t, 3> wrong = pixel.bytes;
     if (armed(Fault::pixel_channels)) std::swap(wrong[0], wrong[2]);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (armed(Fault::pixel_mean)) wrong[c] = look.bytes[static_cast<std::size_t>(sum[c] / samples)];
+      if (armed(Fault::pixel_mean)) wrong[c] = look.bytes[sum[c] / samples];
       if (armed(Fault::pixel_byte))
         wrong[c] = look.bytes[std::min(static_cast<std::size_t>((sum[c] + samples / 2) / samples) + 1,
                                        look.bytes.size() - 1)];

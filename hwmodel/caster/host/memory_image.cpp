@@ -21,8 +21,8 @@ int whole_bursts(int bytes) { return (bytes + kBurst - 1) / kBurst * kBurst; }
 // Places the lines of a volume behind all that has room.
 void take_room(Memory& memory, Layout& layout, std::int64_t lines) {
   memory.bytes.resize((memory.bytes.size() + kBurst - 1) / kBurst * kBurst);
-  layout.base = static_cast<std::int64_t>(memory.bytes.size());
-  memory.bytes.resize(static_cast<std::size_t>(layout.address(lines)));
+  layout.base = memory.bytes.size();
+  memory.bytes.resize(layout.address(lines));
 }
 
 Layout brick_layout(const render::FieldData& field, int word_bytes, int bits, bool apron) {
@@ -72,7 +72,7 @@ template <class Word>
 void brick_lines(const Layout& layout, const state::Grid& at, const Word* from, const LineSink& sink) {
   const std::int64_t slot = layout.brick_at(at.x, at.y, at.z);
   const Word* brick = from + slot * render::kBrickVolume;
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(layout.line_bytes));
+  std::vector<std::uint8_t> bytes(layout.line_bytes);
   if (layout.apron) {
     std::memcpy(bytes.data(), brick, sizeof(Word) * render::kBrickVolume);
     return sink(slot, bytes.data());
@@ -94,7 +94,7 @@ void brick_lines(const Layout& layout, const state::Grid& at, const Word* from, 
 // Lays out the lines of a box of `count` places, with the words at(x, y, z).
 template <class Word, class At>
 void dense_lines(const Layout& layout, std::array<int, 3> count, const LineSink& sink, const At& at) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(layout.line_bytes));
+  std::vector<std::uint8_t> bytes(layout.line_bytes);
   const auto end = [&](int line, std::size_t axis) {
     return std::min((line + 1) << layout.bits[axis], count[axis]);
   };
@@ -179,8 +179,7 @@ void texel_lines(const render::PictureData& data, const Layout& layout, const Li
   const std::vector<picture::Texel>& texels = data.ground.map->texels();
   const std::array<int, 3> count = texel_count(data);
   dense_lines<Texel>(layout, count, sink, [&](int x, int, int z) {
-    const picture::Texel& t = texels[static_cast<std::size_t>(z) * static_cast<std::size_t>(count[0]) +
-                                     static_cast<std::size_t>(x)];
+    const picture::Texel& t = texels[static_cast<std::size_t>(z) * count[0] + x];
     return Texel{t.red, t.green, t.blue, t.bump_x, t.bump_z};
   });
 }

@@ -88,8 +88,7 @@ SkipMap skip_of(const render::FieldData& field) {
   map.x = 2 * bricks.x;
   map.y = 2 * bricks.y;
   map.z = 2 * bricks.z;
-  map.words.resize(static_cast<std::size_t>(map.x) * static_cast<std::size_t>(map.y) *
-                   static_cast<std::size_t>(map.z));
+  map.words.resize(static_cast<std::size_t>(map.x) * map.y * map.z);
   for (std::size_t i = 0; i < map.words.size(); ++i) {
     const std::int32_t record = field.records[i];
     map.words[i] = static_cast<std::uint16_t>((record & 255) + (record < 0 ? 256 : 0));

@@ -83,7 +83,7 @@ std::vector<SentBrick> Uploader::due_bricks(const render::PictureData& data,
           due[to.index(x, y, z)] = 1;
   };
   for (const std::uint32_t brick : changed) {
-    const int i = static_cast<int>(brick);
+    const int i = brick;
     const state::Grid f{i % from.x, i / from.x % from.y, i / from.x / from.y};
     mark(f, before, levels);
     mark(f, 0, matter);
@@ -150,8 +150,8 @@ void Uploader::send_lines(const render::PictureData& data, UploadReport& report)
 bool Uploader::send_other(const Layout& layout, Sent volume, std::int64_t line, const std::uint8_t* bytes,
                           UploadReport& report) {
   const auto one = static_cast<std::size_t>(volume);
-  if (!report.whole && std::memcmp(memory_.bytes.data() + layout.address(line), bytes,
-                                   static_cast<std::size_t>(layout.line_bytes)) == 0)
+  if (!report.whole &&
+      std::memcmp(memory_.bytes.data() + layout.address(line), bytes, layout.line_bytes) == 0)
     return false;
   upload_.add(layout.address(line), bytes, layout.line_bytes);
   report.lines[one].push_back(line);

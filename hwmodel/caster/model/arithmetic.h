@@ -78,7 +78,7 @@ inline constexpr auto kInverseRoot = [] {
     std::int64_t root = 0;
     for (std::int64_t bit = std::int64_t{1} << 20; bit > 0; bit >>= 1)
       if ((root + bit) * (root + bit) <= square) root += bit;
-    values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((root + 1) >> 1);
+    values[i] = static_cast<std::uint16_t>((root + 1) >> 1);
   }
   return values;
 }();

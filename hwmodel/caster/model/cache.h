@@ -23,10 +23,7 @@ struct CacheCounts {
 class Cache {
  public:
   explicit Cache(const CacheShape& shape)
-      : ways_(static_cast<std::size_t>(shape.ways)),
-        sets_(static_cast<std::size_t>(shape.sets)),
-        set_bits_(std::countr_zero(sets_)),
-        tags_(ways_ * sets_) {
+      : ways_(shape.ways), sets_(shape.sets), set_bits_(std::countr_zero(sets_)), tags_(ways_ * sets_) {
     for (int slot = shape.lines() + shape.spare - 1; slot >= 0; --slot) free_.push_back(slot);
   }
 
@@ -93,7 +90,7 @@ class Cache {
   };
   // A line's number is folded, because rows of a dense volume would otherwise all share a few sets.
   std::size_t first_of(std::int64_t line) const {
-    const auto number = static_cast<std::size_t>(line);
+    const std::size_t number = line;
     return ((number ^ (number >> set_bits_) ^ (number >> (2 * set_bits_))) & (sets_ - 1)) * ways_;
   }
   const Tag* set_of(std::int64_t line) const { return tags_.data() + first_of(line); }

@@ -127,7 +127,7 @@ class Costs {
     memory(stage, "arrived, free", slots_of(shape), 1 + slot);
     memory(stage, "queue", shape.queue, request + 2 * (layout.apron ? 1 : kCorners) * (slot + 1));
     if (layout.sparse)
-      memory(stage, "table of bricks", static_cast<std::int64_t>(layout.slots.size()),
+      memory(stage, "table of bricks", layout.slots.size(),
              bits_for(*std::max_element(layout.slots.begin(), layout.slots.end())));
   }
   void caches() {

@@ -21,7 +21,7 @@ template <class Faults = NoFaults>
 class CrossingStage final : public Stage {
  public:
   CrossingStage(WalkStage<Faults>& walk, int rays, Faults faults = {})
-      : Stage("crossing"), walk_(walk), faults_(faults), rays_(static_cast<std::size_t>(rays)) {}
+      : Stage("crossing"), walk_(walk), faults_(faults), rays_(rays) {}
   void connect(Fifo<HitToken>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<MetToken>& out) {
     in_ = &in;
     ask_ = &ask;
@@ -36,7 +36,7 @@ class CrossingStage final : public Stage {
     Bracket bracket;
     int halved = 0;
   };
-  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+  Context& at(int i) { return rays_[i]; }
 
   Did cycle() override {
     bool moved = false, blocked = false;

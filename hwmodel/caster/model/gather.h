@@ -73,9 +73,9 @@ class Gather final : public LineClient {
         absent_(absent),
         cycles_(cycles),
         cache_(shape),
-        arrived_(static_cast<std::size_t>(shape.lines() + shape.spare), 0),
-        store_(arrived_.size() * static_cast<std::size_t>(layout.line_bytes)),
-        queue_(static_cast<std::size_t>(shape.queue)) {}
+        arrived_(shape.lines() + shape.spare, 0),
+        store_(arrived_.size() * layout.line_bytes),
+        queue_(shape.queue) {}
 
   void connect(Fifo<Request>& in, Fifo<LineRequest>& to_memory) {
     in_ = &in;
@@ -131,7 +131,7 @@ class Gather final : public LineClient {
   const std::uint8_t* bytes_in(int slot) const {
     return slot < 0 ? nullptr : store_.data() + static_cast<std::size_t>(slot) * line_bytes();
   }
-  bool has_arrived(int slot) const { return arrived_[static_cast<std::size_t>(slot)] != 0; }
+  bool has_arrived(int slot) const { return arrived_[slot] != 0; }
   std::int64_t line_of(const Entry& entry, int which) const {
     const Places& p = entry.places;
     if (layout_.apron)
@@ -174,7 +174,7 @@ class Gather final : public LineClient {
   }
 
  private:
-  std::size_t line_bytes() const { return static_cast<std::size_t>(layout_.line_bytes); }
+  std::size_t line_bytes() const { return layout_.line_bytes; }
 
   Did look_up() {
     if (!in_->valid()) return Did::starved;
@@ -184,7 +184,7 @@ class Gather final : public LineClient {
     const int all = entry.lines[0] * entry.lines[1] * entry.lines[2];
     bool missed = false;
     for (; next_ < all; ++next_) {
-      const auto i = static_cast<std::size_t>(next_);
+      const std::size_t i = next_;
       const std::int64_t line = line_of(entry, next_);
       entry.lost[i] = -1;
       if (line == kNoLine) {
@@ -203,7 +203,7 @@ class Gather final : public LineClient {
         cache_.release(found.lost);
       else
         entry.lost[i] = found.lost;
-      arrived_[static_cast<std::size_t>(found.slot)] = 0;
+      arrived_[found.slot] = 0;
       if (faults_.loses_miss(entry)) [[unlikely]]
         continue;
       LineRequest& ask = *to_memory_->put();
@@ -230,7 +230,7 @@ class Gather final : public LineClient {
     }
     const auto many = [&](const std::array<std::int32_t, 4>& along, std::size_t axis) {
       const int bits = layout_.bits[axis];
-      const auto last = static_cast<std::size_t>((axis == 1 ? p.high : p.side) - 1);
+      const std::size_t last = (axis == 1 ? p.high : p.side) - 1;
       return static_cast<std::uint8_t>((along[0] >> bits) == (along[last] >> bits) ? 1 : 2);
     };
     entry.lines = {many(p.x, 0), many(p.y, 1), many(p.z, 2)};

@@ -49,7 +49,7 @@ struct NearColumns {
   template <class Value>
   SInt<24> height(Value value, std::int64_t px, std::int64_t pz) const {
     const Spot sx = spot_of(px), sz = spot_of(pz);
-    const auto first = kSide * static_cast<std::size_t>(sz.cell - z) + static_cast<std::size_t>(sx.cell - x);
+    const auto first = kSide * (sz.cell - z) + (sx.cell - x);
     const auto number = [&](std::size_t n) {
       return std::int64_t{columns[first + (n & 1) + kSide * (n >> 1)].*value};
     };
@@ -133,8 +133,7 @@ template <class Value>
 std::int64_t along_table(const std::vector<Value>& table, std::int64_t position) {
   const Spot at = spot_of(position);
   const auto entry = [&](std::int64_t i) {
-    return std::int64_t{table[static_cast<std::size_t>(
-        std::clamp<std::int64_t>(i, 0, static_cast<std::int64_t>(table.size()) - 1))]};
+    return std::int64_t{table[std::clamp<std::int64_t>(i, 0, static_cast<std::int64_t>(table.size()) - 1)]};
   };
   return blended(entry(at.cell), entry(at.cell + 1), at.weight);
 }

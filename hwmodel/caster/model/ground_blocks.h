@@ -21,9 +21,8 @@ GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& hei
   GroundBlocks blocks;
   blocks.x = static_cast<int>((nx + 3) / 4);
   blocks.z = static_cast<int>((nz + 3) / 4);
-  blocks.fine.resize(static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.z));
-  blocks.coarse.resize(static_cast<std::size_t>(blocks.coarse_x()) *
-                       static_cast<std::size_t>((blocks.z + 3) / 4));
+  blocks.fine.resize(static_cast<std::size_t>(blocks.x) * blocks.z);
+  blocks.coarse.resize(static_cast<std::size_t>(blocks.coarse_x()) * ((blocks.z + 3) / 4));
   const auto height = [&](std::int64_t x, std::int64_t z) -> std::int64_t {
     return height_at(std::clamp<std::int64_t>(x, 0, nx - 1), std::clamp<std::int64_t>(z, 0, nz - 1));
   };
@@ -39,8 +38,8 @@ GroundBlocks ground_blocks(std::int64_t nx, std::int64_t nz, const HeightAt& hei
           if (x <= 4 * bx + 3) slope_x = std::max(slope_x, magnitude(height(x + 1, z) - height(x, z)));
           if (z <= 4 * bz + 3) slope_z = std::max(slope_z, magnitude(height(x, z + 1) - height(x, z)));
         }
-      blocks.fine[static_cast<std::size_t>(bz * blocks.x + bx)] = {up(highest), up(slope_x), up(slope_z)};
-      std::int32_t& coarse = blocks.coarse[static_cast<std::size_t>(bz / 4 * blocks.coarse_x() + bx / 4)];
+      blocks.fine[bz * blocks.x + bx] = {up(highest), up(slope_x), up(slope_z)};
+      std::int32_t& coarse = blocks.coarse[bz / 4 * blocks.coarse_x() + bx / 4];
       coarse = std::max(coarse, up(highest));
     }
   return blocks;

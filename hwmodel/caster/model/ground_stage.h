@@ -25,11 +25,7 @@ template <class Faults = NoFaults>
 class GroundStage final : public Stage {
  public:
   GroundStage(const Registers& registers, int rays, int searchers, Faults faults = {})
-      : Stage("ground"),
-        registers_(registers),
-        faults_(faults),
-        searchers_(searchers),
-        rays_(static_cast<std::size_t>(rays)) {
+      : Stage("ground"), registers_(registers), faults_(faults), searchers_(searchers), rays_(rays) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<RayToken>& in, Fifo<ClampedRequest>& ask, Fifo<ColumnGather::Out>& answer,
@@ -47,7 +43,7 @@ class GroundStage final : public Stage {
     Parts parts;
     std::int64_t part = 0;  // part that is looked at
   };
-  Search& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+  Search& at(int i) { return rays_[i]; }
 
   Did cycle() override {
     bool moved = false, blocked = false;

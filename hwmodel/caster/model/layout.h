@@ -25,7 +25,7 @@ struct Layout {
 
   std::int64_t brick_at(int bx, int by, int bz) const {
     if (bx < 0 || by < 0 || bz < 0 || bx >= count[0] || by >= count[1] || bz >= count[2]) return 0;
-    return slots[static_cast<std::size_t>((bz * count[1] + by) * count[0] + bx)];
+    return slots[(bz * count[1] + by) * count[0] + bx];
   }
   // Returns a line by its coordinates, which are places >> bits.
   std::int64_t line_at(int lx, int ly, int lz) const {

@@ -19,7 +19,7 @@ template <class Faults = NoFaults>
 class MatterStage final : public AttachStage<MatterRequest, MatterGather::Out> {
  public:
   MatterStage(const Registers& registers, int waiting, Faults faults = {})
-      : AttachStage("matter", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
+      : AttachStage("matter", waiting), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& surface) const override {
@@ -52,7 +52,7 @@ template <class Faults = NoFaults>
 class LightStage final : public AttachStage<ClampedRequest, LightGather::Out> {
  public:
   LightStage(const Registers& registers, int waiting, Faults faults = {})
-      : AttachStage("light", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
+      : AttachStage("light", waiting), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& surface) const override {

@@ -91,8 +91,7 @@ bool LineBlock::hand_on(Port& port) {
 
 void LineBlock::performed(const memory::Request& request) {
   if (!request.write) return;
-  std::memcpy(bytes_.bytes.data() + (request.address - base_), writes_[request.id].data(),
-              static_cast<std::size_t>(request.bytes));
+  std::memcpy(bytes_.bytes.data() + (request.address - base_), writes_[request.id].data(), request.bytes);
   counts_.written_bytes += request.bytes;
   free_.push_back(request.id);
 }

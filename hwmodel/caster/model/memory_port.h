@@ -29,7 +29,7 @@ class MemoryPort final : public Stage {
     bool moved = false;
     if (replies_->valid()) {
       const LineReply& reply = *replies_->get();
-      clients_[static_cast<std::size_t>(reply.client)]->arrived(reply, memory_.bytes.data() + reply.address);
+      clients_[reply.client]->arrived(reply, memory_.bytes.data() + reply.address);
       moved = true;
     }
     for (std::size_t i = 0; i < in_.size(); ++i) {

@@ -12,8 +12,7 @@ namespace voxmelt::hwmodel::raycast {
 template <class Faults = NoFaults>
 class NormalStage final : public AttachStage<LevelRequest, Levels> {
  public:
-  explicit NormalStage(int waiting, Faults faults = {})
-      : AttachStage("normal", static_cast<std::size_t>(waiting)), faults_(faults) {}
+  explicit NormalStage(int waiting, Faults faults = {}) : AttachStage("normal", waiting), faults_(faults) {}
 
  private:
   int questions(const Surface& surface) const override {

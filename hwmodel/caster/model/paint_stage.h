@@ -40,7 +40,7 @@ template <class Faults = NoFaults>
 class TextureStage final : public AttachStage<ClampedRequest, TexelGather::Out> {
  public:
   TextureStage(const Registers& registers, int waiting, Faults faults = {})
-      : AttachStage("texture", static_cast<std::size_t>(waiting)), registers_(registers), faults_(faults) {}
+      : AttachStage("texture", waiting), registers_(registers), faults_(faults) {}
 
  private:
   int questions(const Surface& surface) const override {

@@ -22,23 +22,19 @@ template <class Faults = NoFaults>
 class PassedStage final : public Stage {
  public:
   PassedStage(const Registers& registers, WalkStage<Faults>& walk, int rays, Faults faults = {})
-      : Stage("passed"),
-        look_(registers.look),
-        walk_(walk),
-        faults_(faults),
-        rays_(static_cast<std::size_t>(rays)) {}
+      : Stage("passed"), look_(registers.look), walk_(walk), faults_(faults), rays_(rays) {}
   void connect(Fifo<Surface>& in, Fifo<PassedToken>& out) {
     in_ = &in;
     out_ = &out;
   }
 
-  bool dark(int context) const { return rays_[static_cast<std::size_t>(context)].dark(); }
+  bool dark(int context) const { return rays_[context].dark(); }
 
  private:
   Did cycle() override {
     if (!in_->valid()) return Did::starved;
     const Surface& event = *in_->oldest();
-    Passage& ray = rays_[static_cast<std::size_t>(event.clear.context)];
+    Passage& ray = rays_[event.clear.context];
     if (event.kind == Surface::Kind::matter || event.kind == Surface::Kind::way) {
       in_->get();
       if (!ray.dark()) add(event, ray);

@@ -37,15 +37,14 @@ struct Inverse {
 };
 inline constexpr auto kReciprocals = [] {
   std::array<std::uint16_t, 1024> values{};
-  for (std::int32_t i = 0; i < 1024; ++i)
-    values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>((1 << 22) / (1024 + i + 1));
+  for (std::int32_t i = 0; i < 1024; ++i) values[i] = static_cast<std::uint16_t>((1 << 22) / (1024 + i + 1));
   return values;
 }();
 inline Inverse inverse_of(std::int64_t step) {
   const std::int64_t d = magnitude(step);
   if (d == 0) return {0, 0};
   const int bits = bits_of(d);
-  const auto i = static_cast<std::size_t>(((d << 11) >> bits) - 1024);
+  const std::size_t i = ((d << 11) >> bits) - 1024;
   return {std::int64_t{kReciprocals[i]} & 4095, 11 + bits};
 }
 // Counts the steps that fit into a way, or a few less.

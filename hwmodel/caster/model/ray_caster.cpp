@@ -71,7 +71,7 @@ struct RayCaster::Machine {
     part.hang_after = kHangAfter;
     part.done = [this] { return lines->counts().written_bytes == bytes_at_end; };
     part.ended = [this] { end_pass(); };
-    const auto count = static_cast<std::size_t>(c.pipes);
+    const std::size_t count = c.pipes;
     for (std::size_t i = 0; i < count; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
       const int channel = 100 * static_cast<int>(i) + 90;
@@ -219,7 +219,7 @@ void RayCaster::forget_all() {
 
 std::int64_t RayCaster::cycle() const { return machine_->part.cycle(); }
 int RayCaster::pipes() const { return machine_->configuration.pipes; }
-const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[static_cast<std::size_t>(i)]; }
+const Pipe& RayCaster::pipe(int i) const { return *machine_->pipes[i]; }
 MemoryCounts RayCaster::memory_counts() const {
   const LineCounts& lines = machine_->lines->counts();
   MemoryCounts counts{lines.reads, lines.read_bytes, lines.written_bytes, lines.bus_cycles, {}};

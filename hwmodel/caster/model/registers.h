@@ -75,11 +75,9 @@ struct GroundBlocks {
   std::vector<std::int32_t> coarse;
 
   int coarse_x() const { return (x + 3) / 4; }
-  const GroundBlock& fine_at(Vec p) const {
-    return fine[static_cast<std::size_t>((p.z >> kFineBits) * x + (p.x >> kFineBits))];
-  }
+  const GroundBlock& fine_at(Vec p) const { return fine[(p.z >> kFineBits) * x + (p.x >> kFineBits)]; }
   std::int64_t coarse_at(Vec p) const {
-    return coarse[static_cast<std::size_t>((p.z >> kCoarseBits) * coarse_x() + (p.x >> kCoarseBits))];
+    return coarse[(p.z >> kCoarseBits) * coarse_x() + (p.x >> kCoarseBits)];
   }
 };
 
@@ -104,7 +102,7 @@ struct SkipMap {
   Vec low, high;  // positions outside of this box are air
 
   std::uint16_t at(std::int64_t bx, std::int64_t by, std::int64_t bz) const {
-    return words[static_cast<std::size_t>((bz * y + by) * x + bx)];
+    return words[(bz * y + by) * x + bx];
   }
 };
 

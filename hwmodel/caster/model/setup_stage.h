@@ -20,7 +20,7 @@ template <class Faults = NoFaults>
 class SetupStage final : public Stage {
  public:
   SetupStage(const Registers& registers, int tiles, Faults faults = {})
-      : Stage("set-up"), registers_(registers), faults_(faults), open_(static_cast<std::size_t>(tiles)) {}
+      : Stage("set-up"), registers_(registers), faults_(faults), open_(tiles) {}
   void connect(Fifo<TileOrder>& in, Fifo<RayToken>& out) {
     in_ = &in;
     out_ = &out;
@@ -60,7 +60,7 @@ class SetupStage final : public Stage {
     const std::int32_t x = tile.x + at % kTileSide, y = tile.y + at / kTileSide;
     const Sub sub = sub_of(tile.samples, open_parts.sample);
     RayToken& token = *out_->put();
-    token.id = {x, y, static_cast<std::int16_t>(open_parts.sample), static_cast<std::int16_t>(tile.buffer)};
+    token.id = {x, y, static_cast<std::int16_t>(open_parts.sample), tile.buffer};
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
     faults_.set_up(registers_.camera, tile.samples, token);
     if (++open_parts.sample < tile.samples) return;

@@ -94,7 +94,7 @@ inline Mixture mixture_of(const LookRegisters& look, const MatterBytes& bytes) {
   mixture.w = std::clamp(73 * (bytes.obstacle - 148), 0, 4096);
   mixture.material = mixed(look.solid, look.liquid, mixture.l);
   if (look.glow) {
-    const auto heat = static_cast<std::size_t>(bytes.heat);
+    const std::size_t heat = bytes.heat;
     for (std::size_t c = 0; c < 3; ++c) {
       mixture.material.diffuse[c] += (look.glow_crust[heat][c] * mixture.l) >> 12;
       mixture.emission[c] = (((look.glow_light[heat][c] * mixture.l) >> 12) * (4096 - mixture.w)) >> 12;
@@ -115,7 +115,7 @@ struct Mirrored {
   Rgb around{};
 };
 inline std::int64_t highlight_at(const std::array<std::uint16_t, 1026>& table, std::int64_t cosine) {
-  const auto i = static_cast<std::size_t>(cosine >> 4);
+  const std::size_t i = cosine >> 4;
   return table[i] + (((table[i + 1] - table[i]) * (cosine & 15)) >> 4);
 }
 inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, const Light& light,
@@ -137,7 +137,7 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
       614 + ((whole(seen(light.open, mirrored.reflected)) * whole(seen(light.open, normal)) * 3482) >> 16);
 
   const std::int64_t entry = std::clamp<std::int64_t>(mirrored.reflected.y + (1 << 14), 0, 1 << 15) >> 4;
-  const std::uint32_t packed = look.surroundings[static_cast<std::size_t>(entry)];
+  const std::uint32_t packed = look.surroundings[entry];
   const Rgb surroundings{static_cast<std::int32_t>((packed & 2047) * 2),
                          static_cast<std::int32_t>(((packed >> 11) & 2047) * 2),
                          static_cast<std::int32_t>((packed >> 22) * 4)};

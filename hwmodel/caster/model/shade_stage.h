@@ -136,8 +136,7 @@ class PressStage final : public Stage {
     PressedToken& token = *out_->put();
     token = {surface.id, surface.sum};
     if (surface.kind != Surface::Kind::background)
-      for (std::int32_t& c : token.pressed)
-        c = registers_.look.tone[static_cast<std::size_t>(std::clamp(c, 0, 12287))];
+      for (std::int32_t& c : token.pressed) c = registers_.look.tone[std::clamp(c, 0, 12287)];
     faults_.pressed(registers_.look, surface, token);
     return Did::busy;
   }

@@ -29,11 +29,7 @@ template <class Faults = NoFaults>
 class StretchStage final : public Stage {
  public:
   StretchStage(const Registers& registers, const PassedStage<Faults>& passed, int rays, Faults faults = {})
-      : Stage("stretch"),
-        registers_(registers),
-        passed_(passed),
-        faults_(faults),
-        rays_(static_cast<std::size_t>(rays)) {}
+      : Stage("stretch"), registers_(registers), passed_(passed), faults_(faults), rays_(rays) {}
   void connect(Fifo<MetToken>& missed, Fifo<MetToken>& crossed, Fifo<LevelRequest>& ask,
                Fifo<LevelToken>& answer, Fifo<HitToken>& exit, Fifo<OnwardToken>& onward,
                Fifo<Surface>& out) {
@@ -71,7 +67,7 @@ class StretchStage final : public Stage {
     int first = 0, count = 0;
     Next next = Next::nothing;
   };
-  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+  Context& at(int i) { return rays_[i]; }
 
   Did cycle() override {
     bool moved = false, blocked = false;
@@ -124,9 +120,7 @@ class StretchStage final : public Stage {
     context.length = length_of_step(met.ray.step, context.to_eye);
     context.last = met.ground.found ? met.ground.part >> 8 : std::numeric_limits<std::int64_t>::max();
   }
-  void add(Context& context, const Event& event) {
-    context.events[static_cast<std::size_t>(context.count++)] = event;
-  }
+  void add(Context& context, const Event& event) { context.events[context.count++] = event; }
   void add_way(Context& context) {
     add(context, {Kind::way, false, from_lattice(context.at), static_cast<std::int32_t>(context.way)});
     context.way = 0;
@@ -219,7 +213,7 @@ class StretchStage final : public Stage {
   }
   void tell(int i) {
     Context& context = at(i);
-    const Event& event = context.events[static_cast<std::size_t>(context.first)];
+    const Event& event = context.events[context.first];
     Surface& to = *out_->put();
     to = {};
     to.id = context.ray.id;

@@ -45,10 +45,10 @@ struct TileBuffer {
   TileBytes bytes{};
 };
 struct TileBuffers {
-  explicit TileBuffers(int count) : all(static_cast<std::size_t>(count)) {
+  explicit TileBuffers(int count) : all(count) {
     for (int i = count - 1; i >= 0; --i) free.push_back(i);
   }
-  TileBuffer& at(int i) { return all[static_cast<std::size_t>(i)]; }
+  TileBuffer& at(int i) { return all[i]; }
   std::vector<TileBuffer> all;
   std::vector<int> free;
   std::deque<int> complete;  // numbers of buffers to be written
@@ -72,7 +72,7 @@ class TileStage final : public Stage, public LineClient {
     out_ = &out;
   }
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
-    std::memcpy(around_[static_cast<std::size_t>(reply.slot)].data(), bytes, kTileBytes);
+    std::memcpy(around_[reply.slot].data(), bytes, kTileBytes);
     --missing_;
   }
 
@@ -120,7 +120,7 @@ class TileStage final : public Stage, public LineClient {
   };
   static At beside(const TileJob& job, int which) {
     constexpr std::array<int, 5> kX{0, -1, 1, 0, 0}, kY{0, 0, 0, -1, 1};
-    const auto i = static_cast<std::size_t>(which);
+    const std::size_t i = which;
     return {job.x / kTileSide + kX[i], job.y / kTileSide + kY[i]};
   }
   // There is a bit for each neighbour: left, right, above, below.
@@ -192,7 +192,7 @@ class PixelStage final : public Stage {
       // The mean is full light at most, unless a ray came twice, which a checker tells.
       const int light = std::min((buffer.sums[at][c] + buffer.samples / 2) / buffer.samples,
                                  static_cast<int>(registers_.look.bytes.size()) - 1);
-      pixel.bytes[c] = registers_.look.bytes[static_cast<std::size_t>(light)];
+      pixel.bytes[c] = registers_.look.bytes[light];
     }
     faults_.totalled(registers_.look, buffer.sums[at], buffer.samples, pixel);
     for (std::size_t c = 0; c < 3; ++c) buffer.bytes[3 * at + c] = pixel.bytes[c];

@@ -38,8 +38,7 @@ inline Sub sub_of(int samples, int which) {
                                                19, 25, 30, 5,  21, 10, 3,  26, 17, 0,  13, 6, 23, 9,  29, 18};
   if (samples == 1) return {};
   const std::int64_t unit = 64 / samples, i = which;
-  const std::int64_t row =
-      samples == 8 ? kEight[static_cast<std::size_t>(which)] : kMany[static_cast<std::size_t>(which)];
+  const std::int64_t row = samples == 8 ? kEight[which] : kMany[which];
   return {unit * i + unit / 2, unit * row + unit / 2};
 }
 
@@ -137,7 +136,7 @@ struct ClampedRequest {
   int side = 2;
   RayId id;
 
-  std::size_t kind_index() const { return static_cast<std::size_t>(asker); }
+  std::size_t kind_index() const { return asker; }
   Places places() const {
     const auto along = [](const Spot& s, std::int32_t n) {
       const auto inside = [&](std::int64_t i) {

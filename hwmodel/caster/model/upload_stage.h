@@ -20,7 +20,7 @@ struct Upload {
   std::vector<std::int64_t> addresses;  // addresses of the bursts
   std::vector<std::uint8_t> bytes;      // kBurst for each of them
 
-  std::int64_t bursts() const { return static_cast<std::int64_t>(addresses.size()); }
+  std::int64_t bursts() const { return addresses.size(); }
   void add(std::int64_t address, const std::uint8_t* from, int count) {
     for (int at = 0; at < count; at += kBurst) addresses.push_back(address + at);
     bytes.insert(bytes.end(), from, from + count);

@@ -75,7 +75,7 @@ inline constexpr auto kRises = [] {
 inline std::int64_t steps_to_rise(std::int64_t level, std::int64_t slope, int spacing) {
   const std::int64_t margin = -level - 4 - 3 * slope;
   if (margin <= 0) return 1;
-  return ((margin * kRises[static_cast<std::size_t>(slope)]) >> (28 - spacing)) + 1;
+  return ((margin * kRises[slope]) >> (28 - spacing)) + 1;
 }
 
 }  // namespace voxmelt::hwmodel::raycast

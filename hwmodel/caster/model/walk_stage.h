@@ -43,11 +43,7 @@ template <class Faults = NoFaults>
 class WalkStage final : public Stage {
  public:
   WalkStage(const Registers& registers, int rays, int walkers, Faults faults = {})
-      : Stage("walk"),
-        registers_(registers),
-        faults_(faults),
-        walkers_(walkers),
-        rays_(static_cast<std::size_t>(rays)) {
+      : Stage("walk"), registers_(registers), faults_(faults), walkers_(walkers), rays_(rays) {
     for (int i = rays - 1; i >= 0; --i) free_.push_back(i);
   }
   void connect(Fifo<GroundedRay>& in, Fifo<LevelRequest>& ask, Fifo<LevelToken>& answer, Fifo<HitToken>& hit,
@@ -77,7 +73,7 @@ class WalkStage final : public Stage {
     std::int16_t level = 0;
     std::int16_t span = 0;
   };
-  Context& at(int i) { return rays_[static_cast<std::size_t>(i)]; }
+  Context& at(int i) { return rays_[i]; }
 
   Did cycle() override {
     bool moved = false, blocked = false;

@@ -18,7 +18,7 @@ Checker::Checker(StreamMachine& machine)
     : machine_(machine),
       shape_(machine.design().shape),
       stages_(stages_of_step(machine.design())),
-      written_in_(static_cast<std::size_t>(shape_.tokens() * shape_.tiles())) {
+      written_in_(shape_.tokens() * shape_.tiles()) {
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : machine.channels()) {
@@ -75,7 +75,7 @@ void Checker::next_pass(std::size_t& pass, Place& place) const {
 
 const Expected* Checker::expected_of(const Channel& channel) {
   const auto& steps = passes_[channel.entering - written_].steps;
-  const auto step = static_cast<std::size_t>(channel.cascade);
+  const std::size_t step = channel.cascade;
   if (step >= steps.size() || steps[step].empty()) return nullptr;
   const Expected& expected = steps[step].at(channel.stage);
   if (channel.behind_stage) return &expected;
@@ -84,7 +84,7 @@ const Expected* Checker::expected_of(const Channel& channel) {
 }
 
 void Checker::entered(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
-  Channel& channel = channels_[static_cast<std::size_t>(number)];
+  Channel& channel = channels_[number];
   if (channel.spanned != channel.entering) {
     channel.spanned = channel.entering;
     channel.span = span_of(channel, passes_[channel.entering - written_].pass);
@@ -132,12 +132,12 @@ bool Checker::compare(const Channel& channel, const Expected& expected, const Ce
 }
 
 void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
-  Channel& channel = channels_[static_cast<std::size_t>(number)];
+  Channel& channel = channels_[number];
   if (mismatch_ != nullptr) return;
   const bool writes = &channel == &channels_.back();
   if (writes) {
     const std::int64_t streamed = passes_[channel.leaving - written_].pass.tile * shape_.tokens();
-    written_in_[static_cast<std::size_t>(streamed + channel.left.ordinal)] = machine_.cycle();
+    written_in_[streamed + channel.left.ordinal] = machine_.cycle();
   }
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     const Cell entered = channel.in_flight.empty() ? Cell{} : channel.in_flight.front();
@@ -206,7 +206,7 @@ void Checker::compare_pass(const Channel& channel) {
     if (a != b && mismatch_ == nullptr)
       report(channel, Mismatch::Kind::books, channel.leaving, channel.left, 0, field, a, b);
   };
-  differs("cells", static_cast<std::int64_t>(shape_.grid.cells()), books.cells);
+  differs("cells", shape_.grid.cells(), books.cells);
   differs("mass", static_cast<std::int64_t>(held->solid + held->liquid), books.mass);
   differs("energy", static_cast<std::int64_t>(held->energy), books.energy);
   differs("heat", static_cast<std::int64_t>(held->heat), books.heat);
@@ -222,8 +222,8 @@ void Checker::report(const Channel& channel, Mismatch::Kind kind, std::size_t pa
       .where =
           in_channel ? channel.name : std::string(name_of(written ? StageKind::writer : channel.producer)),
       .phase = written ? std::nullopt : phase_of(channel.producer),
-      .step = wanted.pass.first + (written ? static_cast<std::uint32_t>(wanted.steps.size()) - 1
-                                           : static_cast<std::uint32_t>(channel.cascade)),
+      .step = wanted.pass.first +
+              (written ? static_cast<std::uint32_t>(wanted.steps.size()) - 1 : channel.cascade),
       .cascade = channel.cascade,
       .lane = lane,
       .cycle = machine_.cycle(),

@@ -53,9 +53,7 @@ class Checker final : public FifoWatcher<Cell> {
   // Counts the cells compared behind stages. Each cell counts in the tile that owns it.
   std::int64_t compared_cells() const { return compared_cells_; }
   // Returns the cycle in which the writer last took this token. Ordinals count over all tiles of a pass.
-  std::int64_t written_in(std::int64_t ordinal) const {
-    return written_in_[static_cast<std::size_t>(ordinal)];
-  }
+  std::int64_t written_in(std::int64_t ordinal) const { return written_in_[ordinal]; }
 
  private:
   struct Span {  // along x

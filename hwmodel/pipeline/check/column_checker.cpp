@@ -39,7 +39,7 @@ bool ColumnChecker::differs(const Place& place, int lane, std::string_view field
   checker_.report({
       .kind = Mismatch::Kind::memory,
       .where = std::string(name_of(StageKind::writer)),
-      .step = wanted.pass.first + static_cast<std::uint32_t>(wanted.pass.steps) - 1,
+      .step = wanted.pass.first + wanted.pass.steps - 1,
       .cascade = machine_.configuration().cascade - 1,
       .lane = lane,
       .cycle = machine_.cycle(),

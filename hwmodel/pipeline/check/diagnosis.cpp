@@ -34,7 +34,7 @@ Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t c
   m.phase = phase_of(blamed.producer);
   m.cascade = blamed.cascade;
   const auto passes = static_cast<std::uint32_t>(streamed / shape.tiles());  // all but the last are alike
-  m.step += passes * static_cast<std::uint32_t>(first.steps) + static_cast<std::uint32_t>(blamed.cascade);
+  m.step += passes * first.steps + blamed.cascade;
   m.x = place.x;
   m.y = place.y;
   m.z = place.z;

@@ -37,7 +37,7 @@ Expectation::Step Expectation::step(bool keep) {
     reference_.run_phase(phase);
     fast_.run_phase(phase);
     if ((result.mismatch = compare_software(phase))) return result;
-    compared_cells_ += static_cast<std::int64_t>(volume().grid.cells());
+    compared_cells_ += volume().grid.cells();
     if (!keep) continue;
     if (!staged) {
       const Difference changed = first_difference(*before, volume());

@@ -8,7 +8,7 @@ FeedChecker::FeedChecker(StreamMachine& machine, Checker& checker)
     : machine_(machine),
       checker_(checker),
       shape_(machine.design().shape),
-      feeds_(static_cast<std::size_t>(machine.configuration().cascade)) {}
+      feeds_(machine.configuration().cascade) {}
 
 void FeedChecker::begin_train(const Irradiance* field) {
   field_ = field;
@@ -18,7 +18,7 @@ void FeedChecker::begin_train(const Irradiance* field) {
 
 void FeedChecker::entered(int channel, std::int64_t ordinal, const UInt<16>* lanes) {
   const int t = channel - StreamMachine::kFirstFeedChannel;
-  Seen& feed = feeds_[static_cast<std::size_t>(t)];
+  Seen& feed = feeds_[t];
   const Place place = place_of_token(ordinal);
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     feed.in_flight.push_back(lanes[lane]);
@@ -30,7 +30,7 @@ void FeedChecker::entered(int channel, std::int64_t ordinal, const UInt<16>* lan
 
 void FeedChecker::left(int channel, std::int64_t ordinal, const UInt<16>* lanes) {
   const int t = channel - StreamMachine::kFirstFeedChannel;
-  Seen& feed = feeds_[static_cast<std::size_t>(t)];
+  Seen& feed = feeds_[t];
   for (int lane = 0; lane < shape_.lanes; ++lane) {
     const std::int64_t entered = feed.in_flight.empty() ? 0 : feed.in_flight.front();
     if (!feed.in_flight.empty()) feed.in_flight.pop_front();
@@ -46,7 +46,7 @@ void FeedChecker::report(Mismatch::Kind kind, int t, std::int64_t ordinal, int l
       .kind = kind,
       .where = kind == Mismatch::Kind::channel ? "step " + std::to_string(t) + ": feed -> exchange"
                                                : std::string(name_of(StageKind::feed)),
-      .step = pass_of(ordinal).first + static_cast<std::uint32_t>(t),
+      .step = pass_of(ordinal).first + t,
       .cascade = t,
       .lane = lane,
       .cycle = machine_.cycle(),

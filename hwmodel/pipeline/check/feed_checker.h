@@ -29,9 +29,7 @@ class FeedChecker final : public FifoWatcher<UInt<16>> {
     std::deque<std::int64_t> in_flight;
   };
   // Returns the pass of a token of the train.
-  const Pass& pass_of(std::int64_t ordinal) const {
-    return passes_[static_cast<std::size_t>(ordinal / shape_.tokens())];
-  }
+  const Pass& pass_of(std::int64_t ordinal) const { return passes_[ordinal / shape_.tokens()]; }
   Place place_of_token(std::int64_t ordinal) const {
     return place_of(shape_, ordinal % shape_.tokens(), pass_of(ordinal).tile);
   }

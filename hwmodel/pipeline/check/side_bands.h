@@ -25,9 +25,7 @@ class ShownRuns {
   const Run* at(int x, int y, int z) const;  // null: the cell is in no run
 
  private:
-  std::size_t column(int x, int z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.x) + static_cast<std::size_t>(x);
-  }
+  std::size_t column(int x, int z) const { return static_cast<std::size_t>(z) * grid_.x + x; }
 
   state::Grid grid_;
   std::vector<std::size_t> begins_;  // begin of each column in `runs_`, and the end of the last one

@@ -33,7 +33,7 @@ int steps_of_pass(const Design& design, const Configuration& configuration, std:
   std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
   const rule::Heat& heat = design.parameters.heat;
   if (heat.radiates()) steps = std::min(steps, heat.visibility_every - heat.visibility_age(step));
-  return static_cast<int>(steps);
+  return steps;
 }
 
 }  // namespace
@@ -144,10 +144,10 @@ class Lockstep::Run {
 
   // Runs the software over the steps of a pass. Returns false if its kernels differ.
   bool run_software(const Pass& pass) {
-    report_.pass_end = pass.first + static_cast<std::uint32_t>(pass.steps);
+    report_.pass_end = pass.first + pass.steps;
     expected_.clear();
     for (int t = 0; t < pass.steps; ++t) {
-      const std::uint32_t done = pass.first + static_cast<std::uint32_t>(t) + 1 - report_.first_step;
+      const std::uint32_t done = pass.first + t + 1 - report_.first_step;
       Expectation::Step one = software_.step(done % options_.every == 0 || done == options_.steps);
       if (options_.poll) options_.poll();
       expected_.push_back(std::move(one.stages));
@@ -173,7 +173,7 @@ class Lockstep::Run {
       add_pass(last);
       return last;
     }
-    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps);
+    const std::uint32_t step = last.first + last.steps;
     const Design& design = machine_.design();
     const rule::Heat& heat = design.parameters.heat;
     if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
@@ -219,7 +219,7 @@ class Lockstep::Run {
     if (!is_last_tile(last)) return true;
     report_.cell_steps +=
         first.ends() ? static_cast<std::int64_t>(memory_.grid.cells()) * (next_step_ - first.first) : 0;
-    const std::uint32_t step = last.first + static_cast<std::uint32_t>(last.steps) - 1;
+    const std::uint32_t step = last.first + last.steps - 1;
     if (software_mismatch_ != nullptr) return true;
     if (last.ends())
       compare_memory(step, software_.volume());

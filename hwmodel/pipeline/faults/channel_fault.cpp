@@ -17,8 +17,8 @@ void ChannelFault::add_pass(const Pass& pass) {
   if (channel_ != nullptr || plan_.fault() < Fault::fifo_overwrite || plan_.struck()) return;
   position_ = std::max(pass.first, plan_.first_step()) - pass.first;
   if (position_ >= static_cast<std::uint32_t>(pass.steps)) return;
-  armed_from_ = static_cast<std::int64_t>(passes_.size() - 1) * pipeline_.design().shape.tokens();
-  const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(static_cast<int>(position_));
+  armed_from_ = (passes_.size() - 1) * pipeline_.design().shape.tokens();
+  const std::vector<CellFifo*> channels = pipeline_.channels_behind_stages(position_);
   channel_ = channels[channels.size() / 2];
   channel_->plant(this);
 }
@@ -74,13 +74,13 @@ int ChannelFault::first_difference(const Cell* one, const Cell* other) const {
 
 Place ChannelFault::place_of_token(std::int64_t ordinal) const {
   const Shape& shape = pipeline_.design().shape;
-  const auto pass = static_cast<std::size_t>(ordinal / shape.tokens());
+  const std::size_t pass = ordinal / shape.tokens();
   return place_of(shape, ordinal % shape.tokens(), passes_.at(std::min(pass, passes_.size() - 1)).tile);
 }
 
 void ChannelFault::strike(std::int64_t ordinal, int lane) {
   const Place place = place_of_token(ordinal);
-  const auto pass = static_cast<std::size_t>(ordinal / pipeline_.design().shape.tokens());
+  const std::size_t pass = ordinal / pipeline_.design().shape.tokens();
   const std::uint32_t step = passes_[pass].first + position_;
   plan_.strike({channel_->name(), step, place.x + lane, place.y, place.z});
 }

@@ -15,7 +15,7 @@ PlantedCode::PlantedCode(FaultPlan& plan, Pipeline& pipeline)
 }
 
 bool PlantedCode::armed_at_writer(Fault fault, std::int64_t pass) const {
-  return plan_.armed(fault, pass_at(pass).first + static_cast<std::uint32_t>(pass_at(pass).steps) - 1);
+  return plan_.armed(fault, pass_at(pass).first + pass_at(pass).steps - 1);
 }
 
 int PlantedCode::cells_of(const Place& place) const {
@@ -24,8 +24,7 @@ int PlantedCode::cells_of(const Place& place) const {
 }
 
 void PlantedCode::strike_writer(std::int64_t pass, const Place& place, int lane) {
-  plan_.strike({"writer", pass_at(pass).first + static_cast<std::uint32_t>(pass_at(pass).steps) - 1,
-                place.x + lane, place.y, place.z});
+  plan_.strike({"writer", pass_at(pass).first + pass_at(pass).steps - 1, place.x + lane, place.y, place.z});
 }
 
 void PlantedCode::judged(std::int64_t pass, const Place& place, const Cell* lanes, bool& air) {

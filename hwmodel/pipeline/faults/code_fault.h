@@ -29,7 +29,7 @@ class PlantedCode final : public CodeFault {
   void found(std::int64_t pass, const Place& place, const std::uint64_t* slot, bool& stored) override;
 
  private:
-  const Pass& pass_at(std::int64_t pass) const { return passes_[static_cast<std::size_t>(pass)]; }
+  const Pass& pass_at(std::int64_t pass) const { return passes_[pass]; }
   bool armed_at_writer(Fault fault, std::int64_t pass) const;
   int cells_of(const Place& place) const;
   void strike_writer(std::int64_t pass, const Place& place, int lane);

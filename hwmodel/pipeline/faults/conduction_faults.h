@@ -140,7 +140,7 @@ class ConductionFaults : public Planted {
     if (armed(pass, Fault::conduction_stale_row)) {
       const bool same_token = lane > 0 && (corner & kWest) != 0;
       const std::int64_t delay = corner_delay(pass.shape(), same_token ? corner & ~kWest : corner);
-      const HeatWord* row = pass.line_.tap(static_cast<std::size_t>(delay - 1));
+      const HeatWord* row = pass.line_.tap(delay - 1);
       const int from = (corner & kWest) == 0 ? lane : (lane + pass.lanes() - 1) % pass.lanes();
       return pass.flux(row[from], q, dither[part]);
     }

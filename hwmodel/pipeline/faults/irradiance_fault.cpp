@@ -15,8 +15,7 @@ void IrradianceFault::counted(int t, std::int64_t pass, const Place& place, std:
   if (!plan_.armed(Fault::feed_early, step) || dark == 0 || mask == 0) return;
   --dark;
   const Shape& shape = pipeline_.design().shape;
-  strike(step, place_of(shape, place.ordinal + dark, passes_[static_cast<std::size_t>(pass)].tile),
-         std::countr_zero(mask));
+  strike(step, place_of(shape, place.ordinal + dark, passes_[pass].tile), std::countr_zero(mask));
 }
 
 void IrradianceFault::masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask,

@@ -27,9 +27,7 @@ class IrradianceFault final : public FeedFault {
   void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) override;
 
  private:
-  std::uint32_t step_of(int t, std::int64_t pass) const {
-    return passes_[static_cast<std::size_t>(pass)].first + static_cast<std::uint32_t>(t);
-  }
+  std::uint32_t step_of(int t, std::int64_t pass) const { return passes_[pass].first + t; }
   void strike(std::uint32_t step, const Place& place, int lane);
 
   FaultPlan& plan_;

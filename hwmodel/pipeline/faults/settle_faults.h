@@ -21,7 +21,7 @@ class SettleFaults : public Planted {
   using Faulty = Settle<SettleFaults>;
 
   SettleFaults(FaultPlan& plan, const Design& design)
-      : Planted(plan), column_(design.shape.lanes, static_cast<std::size_t>(design.shape.column())) {}
+      : Planted(plan), column_(design.shape.lanes, design.shape.column()) {}
 
   void summed(Faulty& stage, const Cell* in) {
     if (!armed(stage, Fault::settle_run_broken)) return;
@@ -59,9 +59,7 @@ class SettleFaults : public Planted {
         word.heat = stage.turned_[lane].heat;
         return strike_turned(stage, lane, 0);
       }
-      const std::int64_t sum =
-          std::int64_t{word.sum} -
-          static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(word.sum)));
+      const std::int64_t sum = std::int64_t{word.sum} - std::bit_floor(static_cast<std::uint64_t>(word.sum));
       const SettleWord right = word;
       word.sum = sum;
       int k = 0;
@@ -153,7 +151,7 @@ class SettleFaults : public Planted {
     for (std::size_t k = cells.size(); k-- > 0;) {
       const SettleWord& record = outcome.record;
       const std::int64_t heat = down.next(words[k], stage.dither_).heat;
-      const std::int64_t amount = settled_amount(record.sum, record.last, static_cast<std::int64_t>(k));
+      const std::int64_t amount = settled_amount(record.sum, record.last, k);
       outcome.cells[k] = {amount, amount > 0 ? heat : 0};
     }
     return outcome;

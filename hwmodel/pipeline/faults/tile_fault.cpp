@@ -35,7 +35,7 @@ void TileFault::give_border(const Place& place, const Pass& pass, Cell* lanes) {
 void TileFault::give_stale(const Place& place, const Pass& pass, const StateMemory& memory, Cell* lanes) {
   const Shape& shape = pipeline_.design().shape;
   if (shape.owns(pass.tile, place.x)) return;
-  std::vector<Cell> stale(static_cast<std::size_t>(shape.lanes));
+  std::vector<Cell> stale(shape.lanes);
   read_token(memory.stale(), shape, place, stale.data());
   const auto lane = static_cast<int>(std::mismatch(stale.begin(), stale.end(), lanes).first - stale.begin());
   if (lane == shape.lanes) return;
@@ -46,10 +46,10 @@ void TileFault::give_stale(const Place& place, const Pass& pass, const StateMemo
 // Strikes only where the owner has written before. Otherwise the owner would write over the wrong cell.
 int TileFault::writes(std::int64_t pass, const Place& place, StateMemory& memory, const Cell* lanes) {
   const Pass& now = pass_at(pass);
-  const std::uint32_t step = now.first + static_cast<std::uint32_t>(now.steps) - 1;
+  const std::uint32_t step = now.first + now.steps - 1;
   const Shape& shape = pipeline_.design().shape;
   if (!plan_.armed(Fault::tile_overwritten, step) || shape.owner(place.x / shape.lanes) > now.tile) return -1;
-  std::vector<Cell> owned(static_cast<std::size_t>(shape.lanes));
+  std::vector<Cell> owned(shape.lanes);
   read_token(memory.written(), shape, place, owned.data());
   // Side bands are not written.
   const auto same = [](const Cell& a, const Cell& b) {
@@ -65,7 +65,7 @@ int TileFault::writes(std::int64_t pass, const Place& place, StateMemory& memory
 // Counts a cell of a halo. The sums are compared when the pass has been written.
 int TileFault::counts(std::int64_t pass, const Place& /*place*/) {
   const Pass& now = pass_at(pass);
-  const std::uint32_t step = now.first + static_cast<std::uint32_t>(now.steps) - 1;
+  const std::uint32_t step = now.first + now.steps - 1;
   if (!plan_.armed(Fault::tile_counted_twice, step)) return -1;
   const Shape& shape = pipeline_.design().shape;
   const Place last = place_of(shape, shape.tokens() - 1, shape.tiles() - 1);

@@ -28,7 +28,7 @@ class TileFault final : public PortFault {
   int counts(std::int64_t pass, const Place& place) override;
 
  private:
-  const Pass& pass_at(std::int64_t pass) const { return passes_[static_cast<std::size_t>(pass)]; }
+  const Pass& pass_at(std::int64_t pass) const { return passes_[pass]; }
   void give_border(const Place& place, const Pass& pass, Cell* lanes);
   void give_stale(const Place& place, const Pass& pass, const StateMemory& memory, Cell* lanes);
 

@@ -58,7 +58,7 @@ class ViscousSpreadFaults : public Planted {
  private:
   // Returns the dither `up` layers above and `later` sub-steps later.
   static std::int64_t dither(const Faulty& stage, int axis, int up, int later) {
-    const std::int64_t layer = dither_of(static_cast<std::uint32_t>(stage.came().y + up));
+    const std::int64_t layer = dither_of(stage.came().y + up);
     return stage.pair_dither(axis, layer, stage.moment().substep + later);
   }
 };

@@ -49,10 +49,10 @@ class Apply final : public Stage {
         hot_(design.hot()),
         south_bits_(bits_for(southern_arrivals())),
         arrival_bits_(flow_.arrival_bits()),
-        plane_(static_cast<std::size_t>(design.shape.plane())),
-        column_(static_cast<std::size_t>(design.shape.column())),
-        border_(static_cast<std::size_t>(design.shape.lanes)),
-        line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
+        plane_(design.shape.plane()),
+        column_(design.shape.column()),
+        border_(design.shape.lanes),
+        line_(design.shape.lanes, lag()) {}
 
   std::vector<BufferCost> buffers() const override {
     const bool one_ground = alpha_[0] == alpha_[1] && alpha_[1] == alpha_[2];
@@ -193,7 +193,7 @@ class Apply final : public Stage {
   void pass(const Flowing& giver, Way way, Flowing& to) {
     if ((giver.pattern >> way & 1) == 0) return;
     const bool diagonal = way >= kFirstDiagonal;
-    Gift gift = diagonal ? giver.diagonal : giver.axis[static_cast<std::size_t>(way)];
+    Gift gift = diagonal ? giver.diagonal : giver.axis[way];
     faults_.gift(*this, giver, diagonal, to, gift);
     to.in.amount = to.in.amount + gift.amount;
     to.in.energy = to.in.energy + (printed_ ? rubbed(gift.energy, giver.footing) : std::int64_t{gift.energy});

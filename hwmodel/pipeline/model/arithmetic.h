@@ -30,7 +30,7 @@ template <class Table>
 const auto& looked_up(const Table& table, std::int64_t address) {
   if (address < 0 || address >= std::ssize(table)) [[unlikely]]
     throw AddressError(address, std::ssize(table));
-  return table[static_cast<std::size_t>(address)];
+  return table[address];
 }
 
 // Returns floor((value x fraction + rounding) / 65536), by one signed multiplier of 17 x 17 bits.

@@ -42,7 +42,7 @@ class StepBlock {
   }
   // The first pass of a train begins with an empty machine. Further ones are added.
   void begin_pass(const Pass& pass, int position, bool first) {
-    const std::uint32_t step = pass.first + static_cast<std::uint32_t>(position);
+    const std::uint32_t step = pass.first + position;
     int copy = -1;
     for (const auto& stage : stages_) {
       if (stage->kind() == StageKind::settle) ++copy;

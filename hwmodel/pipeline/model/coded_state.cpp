@@ -82,9 +82,7 @@ std::vector<BufferCost> writer_buffers(const CodeLayout& layout) {
 }
 
 CodedState::CodedState(const CodeLayout& layout)
-    : layout_(layout),
-      slot_words_(layout.slot_bits() / 64),
-      words_(static_cast<std::size_t>(slot_words_ * layout.columns())) {}
+    : layout_(layout), slot_words_(layout.slot_bits() / 64), words_(slot_words_ * layout.columns()) {}
 
 std::int64_t CodedState::bits_of(std::int64_t column) const {
   const std::uint64_t* words = slot(column);
@@ -102,7 +100,7 @@ std::int64_t CodedState::moved_bits() const {
 void CodedState::store(const state::Volume& volume) {
   Shape shape{volume.grid, layout_.lanes()};
   ColumnWriter writer(layout_);
-  std::vector<Cell> lanes(static_cast<std::size_t>(shape.lanes));
+  std::vector<Cell> lanes(shape.lanes);
   for (Place place = begin_of(shape, 0); place.ordinal < shape.tokens(); place.next(shape)) {
     read_token(volume, shape, place, lanes.data());
     writer.put(lanes.data(), cells_of(shape, place), place, slot(layout_.column_of(place)), nullptr, 0);
@@ -112,7 +110,7 @@ void CodedState::store(const state::Volume& volume) {
 void CodedState::load(const Shape& shape, const Place& place, state::Volume& volume) const {
   const std::uint64_t* from = slot(layout_.column_of(place));
   ColumnReader reader(layout_);
-  std::vector<Cell> lanes(static_cast<std::size_t>(shape.lanes));
+  std::vector<Cell> lanes(shape.lanes);
   Place at = place;
   for (at.y = 0; at.y < shape.grid.y; ++at.y) {
     reader.get(lanes.data(), cells_of(shape, at), at, from, nullptr, 0);

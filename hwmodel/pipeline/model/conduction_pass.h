@@ -62,7 +62,7 @@ class ConductionPass : public Stage {
         material_(design.parameters.material),
         faults_(faults),
         weight_(weight),
-        line_(lanes(), static_cast<std::size_t>(lag())) {}
+        line_(lanes(), lag()) {}
 
   Wires side_bands() const override { return heated_bands(design()); }
   std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kPairs, 2); }
@@ -78,7 +78,7 @@ class ConductionPass : public Stage {
     line_.shift();
     for (unsigned corner = 0; corner < rows_.size(); ++corner) {
       const std::int64_t delay = corner_delay(shape(), corner);
-      rows_[corner] = delay <= lag() ? line_.tap(static_cast<std::size_t>(delay)) : nullptr;
+      rows_[corner] = delay <= lag() ? line_.tap(delay) : nullptr;
     }
     if (in != nullptr) {
       for (const int lane : each_lane()) take_cell(in[lane], material_, rows_[kHere][lane]);

@@ -28,7 +28,7 @@ class Gravity final : public Stage {
         law_(design.parameters.flow.paper),
         paper_(design.paper()),
         hot_(design.hot()),
-        line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
+        line_(design.shape.lanes, lag()) {}
 
   std::vector<BufferCost> buffers() const override {
     const int bits = design().cell_bits() + (design().needs_walls() ? 1 : 0) + (paper_ ? 0 : 1);

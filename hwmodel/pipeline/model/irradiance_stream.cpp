@@ -37,15 +37,15 @@ IrradianceWords IrradianceStream::words_of(const Irradiance& field, const Shape&
     }
     head(mask);
     words.insert(words.end(), lit.begin(), lit.end());
-    counts_.lit_cells += static_cast<std::int64_t>(lit.size());
+    counts_.lit_cells += lit.size();
     counts_.lit_tokens += lit.empty() ? 0 : 1;
   }
-  counts_.bits += static_cast<std::int64_t>(words.size()) * kWordBits;
+  counts_.bits += words.size() * kWordBits;
   return words;
 }
 
 IrradianceStream::IrradianceStream(const Irradiance& field, const Shape& shape) {
-  tiles_.reserve(static_cast<std::size_t>(shape.tiles()));
+  tiles_.reserve(shape.tiles());
   for (int tile = 0; tile < shape.tiles(); ++tile) tiles_.push_back(words_of(field, shape, tile));
 }
 

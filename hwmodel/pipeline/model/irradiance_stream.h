@@ -81,10 +81,10 @@ class IrradianceReader {
       mask = mask_at(at_ + 1);
       end += 1 + static_cast<std::size_t>(head_words());
     }
-    if (dark == 0) end += static_cast<std::size_t>(std::popcount(mask));
-    return static_cast<std::int64_t>(end);
+    if (dark == 0) end += std::popcount(mask);
+    return end;
   }
-  std::int64_t used() const { return static_cast<std::int64_t>(at_); }
+  std::int64_t used() const { return at_; }
 
   // Makes the next token, at `place`.
   void next(UInt<16>* lanes, const Place& place, FeedFault* fault, int t, std::int64_t pass) {
@@ -115,8 +115,7 @@ class IrradianceReader {
   std::int64_t word(std::size_t at) const { return at < words_->size() ? (*words_)[at] : 0; }
   std::uint32_t mask_at(std::size_t at) const {
     std::uint32_t mask = 0;
-    for (int i = 0; i < head_words(); ++i)
-      mask |= static_cast<std::uint32_t>(word(at + static_cast<std::size_t>(i))) << (16 * i);
+    for (int i = 0; i < head_words(); ++i) mask |= static_cast<std::uint32_t>(word(at + i)) << (16 * i);
     return mask;
   }
 

@@ -65,9 +65,8 @@ class PaperFlow {
     const Gift plain = law_.use_table ? Gift{} : gift(amount, energy, share(heat));
     for (int way = 0; way < law_.neighbours; ++way) {
       if ((pattern >> way & 1) == 0) continue;
-      gifts[static_cast<std::size_t>(way)] = law_.use_table
-                                                 ? gift(amount, energy, table_share(pattern, way))
-                                                 : (way < kFirstDiagonal ? plain : plain.quartered());
+      gifts[way] = law_.use_table ? gift(amount, energy, table_share(pattern, way))
+                                  : (way < kFirstDiagonal ? plain : plain.quartered());
     }
     return gifts;
   }

@@ -31,16 +31,16 @@ class Pattern final : public Stage {
         law_(design.parameters.flow.paper),
         flow_(design.parameters.flow),
         keys_(speck_keys(design.parameters.seed)),
-        plane_(static_cast<std::size_t>(design.shape.plane())),
-        column_(static_cast<std::size_t>(design.shape.column())),
-        border_(static_cast<std::size_t>(design.shape.lanes)),
-        line_(design.shape.lanes, static_cast<std::size_t>(lag())) {}
+        plane_(design.shape.plane()),
+        column_(design.shape.column()),
+        border_(design.shape.lanes),
+        line_(design.shape.lanes, lag()) {}
 
   // A word has the directions decided so far: to the south, and in the east memory also to the north and
   // west.
   Wires side_bands() const override { return {Wire::pattern}; }
   int width_of(Wire wire) const override {
-    return wire == Wire::pattern ? static_cast<int>(law_.neighbours) : Stage::width_of(wire);
+    return wire == Wire::pattern ? law_.neighbours : Stage::width_of(wire);
   }
   std::vector<BufferCost> buffers() const override {
     const int cell = design().cell_bits(), limit = bits_for(flow_.limit());
@@ -80,7 +80,7 @@ class Pattern final : public Stage {
       west = north + lane;
       if (south != nullptr) south_west = south++;
     }
-    if (out != nullptr) leave(line_.tap(static_cast<std::size_t>(lag())), out);
+    if (out != nullptr) leave(line_.tap(lag()), out);
   }
 
  private:

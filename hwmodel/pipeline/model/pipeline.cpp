@@ -145,7 +145,7 @@ struct Pipeline::Machine {
   }
   std::int64_t token_bits() const { return std::int64_t{design.shape.lanes} * design.cell_bits(); }
 
-  static std::size_t at(int t) { return static_cast<std::size_t>(t); }
+  static std::size_t at(int t) { return t; }
   static std::string step_name(int t) { return "step " + std::to_string(t) + ": "; }
 
   template <class Visit>  // visit(fifo, producer stage or null: the reader, cascade position)
@@ -234,9 +234,8 @@ const state::Volume& Pipeline::written() const { return machine_->writer.written
 
 std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
   std::vector<CellFifo*> channels;
-  machine_->steps.at(static_cast<std::size_t>(cascade))->for_each_output([&](CellFifo& fifo, const Stage&) {
-    channels.push_back(&fifo);
-  });
+  machine_->steps.at(cascade)->for_each_output(
+      [&](CellFifo& fifo, const Stage&) { channels.push_back(&fifo); });
   return channels;
 }
 

@@ -37,8 +37,6 @@ inline std::uint64_t speck_block(const SpeckKeys& keys, std::uint32_t step, std:
 }
 
 // Returns the byte of the cell at x in the block of its eight.
-inline UInt<8> speck_byte(std::uint64_t block, int x) {
-  return static_cast<std::int64_t>(block >> (8 * (x & 7)) & 0xFF);
-}
+inline UInt<8> speck_byte(std::uint64_t block, int x) { return block >> (8 * (x & 7)) & 0xFF; }
 
 }  // namespace voxmelt::hwmodel

@@ -69,7 +69,7 @@ class Settle final : public Stage {
     dither_ = at(dithers_, 1);
     pace_ = at(paces_, lag());
     for (const int each : each_lane(1)) {  // a cell's word is known when the next cell comes
-      const auto lane = static_cast<std::size_t>(each);
+      const std::size_t lane = each;
       words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
     }
     faults_.summed(*this, in);
@@ -78,7 +78,7 @@ class Settle final : public Stage {
     if (filled() <= height_) return;
     dither_ = at(dithers_, turned_delay());
     for (const int each : each_lane(turned_delay())) {
-      const auto lane = static_cast<std::size_t>(each);
+      const std::size_t lane = each;
       words_[lane] = records_[lane].next(turned_[lane], dither_);
     }
     faults_.lowered(*this);
@@ -88,7 +88,7 @@ class Settle final : public Stage {
     upwards_.exchange(words_.data(), turned_.data());
     if (out == nullptr) return;
     for (const int each : each_lane(lag())) {
-      const auto lane = static_cast<std::size_t>(each);
+      const std::size_t lane = each;
       shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
       faults_.shown(*this, each, out[lane]);
     }

@@ -45,7 +45,7 @@ class StateMemory {
   // Returns the code of the copy that a train reads first (0), or of the other one (1). Null means that there
   // is none.
   const CodedState* code(int copy) const {
-    const auto& code = codes_[static_cast<std::size_t>(copy)];
+    const auto& code = codes_[copy];
     return code ? &*code : nullptr;
   }
   CodedState& written_code() { return *codes_[writes_first_ ? 0 : 1]; }

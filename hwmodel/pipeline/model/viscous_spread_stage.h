@@ -25,9 +25,9 @@ class ViscousSpread final : public Stage {
         hot_(design.hot()),
         walls_(design.needs_walls()),
         head_bits_(RunWidths(design).head),
-        line_(lanes(), static_cast<std::size_t>(lag())),
+        line_(lanes(), lag()),
         floor_(lanes(), static_cast<std::size_t>(design.shape.blocks()) + 1),
-        now_(static_cast<std::size_t>(lanes())),
+        now_(lanes()),
         south_(now_) {}
 
   // Only the last lane of a token has a pair left (its diagonal to the next block) after one plane.
@@ -52,18 +52,16 @@ class ViscousSpread final : public Stage {
  protected:
   void begin_step() override {
     const int k = moment().substep;
-    dithers_.next(UInt<16>::truncated(dither_of(step()) + dither_of(static_cast<std::uint32_t>(k))));
+    dithers_.next(UInt<16>::truncated(dither_of(step()) + dither_of(k)));
     substep_ = Reciprocal(moment().substeps);
-    for (int axis = 0; axis < 4; ++axis)
-      step_dither_[static_cast<std::size_t>(axis)] = dither_of(step(), axis, 4);
+    for (int axis = 0; axis < 4; ++axis) step_dither_[axis] = dither_of(step(), axis, 4);
   }
 
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
     if (came().y == 0) floor_.shift();
     const UInt<16> layer = dither_of(static_cast<std::uint32_t>(came().y));
-    for (int axis = 0; axis < 4; ++axis)
-      axis_dither_[static_cast<std::size_t>(axis)] = pair_dither(axis, layer, moment().substep);
+    for (int axis = 0; axis < 4; ++axis) axis_dither_[axis] = pair_dither(axis, layer, moment().substep);
     const auto column = static_cast<std::size_t>(shape().column());
     const auto plane = static_cast<std::size_t>(shape().plane());
     const auto blocks = static_cast<std::size_t>(shape().blocks());
@@ -81,7 +79,7 @@ class ViscousSpread final : public Stage {
     const Tap* west = came().has_west() ? &west_ : nullptr;
     const Tap* south_west = &south_west_;
     for (const int each : each_lane()) {
-      const auto lane = static_cast<std::size_t>(each);
+      const std::size_t lane = each;
       const bool corner = west != nullptr && z > 0;
       look(now_[lane].seen, west != nullptr ? &west->seen : nullptr, z > 0 ? &south_[lane].seen : nullptr,
            corner ? &south_west->seen : nullptr);
@@ -123,7 +121,7 @@ class ViscousSpread final : public Stage {
     word.ground = cell.in_run ? Ground::run : Ground::outside;
     word.present = cell.amount;
     if (hot_) word.content = cell.amount * cell.heat;
-    RunReader& reader = now_[static_cast<std::size_t>(lane)].reader;
+    RunReader& reader = now_[lane].reader;
     if (!cell.in_run || !reader.above_blocked(came().y)) return;
     word.head = signed_wire(cell.head, head_bits_);
     const RunPace pace{cell.mobility, cell.limit, cell.dead};
@@ -174,11 +172,11 @@ class ViscousSpread final : public Stage {
   // Returns the dither of sub-step k, in the layer with this dither. The lanes of a token share it.
   UInt<16> pair_dither(int axis, std::int64_t layer, int k) const {
     const int n = moment().substeps;
-    const UInt<16> offset = UInt<16>::truncated(step_dither_[static_cast<std::size_t>(axis)] + layer);
+    const UInt<16> offset = UInt<16>::truncated(step_dither_[axis] + layer);
     return substep_.times(offset + 65536 * std::int64_t{(k + axis * n / 4) % n});
   }
   static bool is_diagonal(int axis) { return axis >= 2; }
-  std::int64_t dither_of_axis(int axis) const { return axis_dither_[static_cast<std::size_t>(axis)]; }
+  std::int64_t dither_of_axis(int axis) const { return axis_dither_[axis]; }
 
   // Lets liquid flow from the cell with the higher head.
   void flow(const SeenCell& from, const SeenCell& to, int axis) {

@@ -17,7 +17,7 @@ class Walls final : public Stage {
   explicit Walls(const Design& design, Faults faults = {})
       : Stage(StageKind::walls, design, design.shape.plane()),
         faults_(faults),
-        line_(design.shape.lanes, static_cast<std::size_t>(design.shape.plane())) {}
+        line_(design.shape.lanes, design.shape.plane()) {}
 
   // A cell waits for its east and its north side. Between them, and in lane P - 1 before them, it holds one
   // bit more than a cell.
@@ -42,8 +42,7 @@ class Walls final : public Stage {
     Cell* now = line_.tap(0);
     std::copy(in, in + lanes(), now);
     Cell* south = came().z > 0 ? line_.tap(line_.delay()) : nullptr;
-    Cell* west =
-        came().has_west() ? line_.tap(static_cast<std::size_t>(shape().column())) + lanes() - 1 : nullptr;
+    Cell* west = came().has_west() ? line_.tap(shape().column()) + lanes() - 1 : nullptr;
     const bool at_north_end = came().z == shape().grid.z - 1;
     for (const int lane : each_lane()) {
       touch(*now, west);

@@ -19,8 +19,7 @@ double percent(const Json& part, std::int64_t value) {
 
 Json json_of(const Timeline& timeline, const Json& stages) {
   Json begins = Json::array(), rows = Json::array();
-  for (std::size_t i = 0; i < timeline.stretches(); ++i)
-    begins.push_back(static_cast<std::int64_t>(i) * timeline.width());
+  for (std::size_t i = 0; i < timeline.stretches(); ++i) begins.push_back(i * timeline.width());
   for (std::size_t stage = 0; stage < stages.size(); ++stage) {
     Json row{{"name", stages[stage]["name"]}, {"cascade", stages[stage]["cascade"]}};
     for (std::size_t i = 0; i < timeline.stretches(); ++i) {

@@ -63,17 +63,17 @@ void ColumnInput::begin(const ColumnSlots& slots, std::array<const StoredColumns
 }
 
 bool ColumnInput::has(std::int64_t bits, std::int64_t now) const {
-  const auto at = static_cast<std::size_t>(done_ - first_);
+  const std::size_t at = done_ - first_;
   if (at >= ahead_.size()) return false;
   const std::vector<std::int64_t>& come = ahead_[at].come;
-  const auto needed = static_cast<std::size_t>(bursts_of(bits));
+  const std::size_t needed = bursts_of(bits);
   return come.size() >= needed && come[needed - 1] < now;
 }
 
 void ColumnInput::use(std::int64_t bits, bool ends, std::int64_t now) {
   freed_before_ = freed_;
   last_used_ = now;
-  const std::int64_t all = ahead_[static_cast<std::size_t>(done_ - first_)].bursts;
+  const std::int64_t all = ahead_[done_ - first_].bursts;
   const std::int64_t done = ends ? all : bits / CodeLayout::kBurstBits;
   freed_ += done - freed_of_column_;
   freed_of_column_ = done;
@@ -86,12 +86,11 @@ void ColumnInput::use(std::int64_t bits, bool ends, std::int64_t now) {
 void ColumnInput::take(std::int64_t now) {
   while (memory_->reply(port_) != nullptr) {
     memory_->take(port_);
-    Column& column = ahead_[static_cast<std::size_t>(under_way_.front() - first_)];
+    Column& column = ahead_[under_way_.front() - first_];
     under_way_.pop_front();
     column.come.push_back(now);
     if (slots_->coded && static_cast<std::int64_t>(column.come.size()) == slots_->head_bursts)
-      column.bursts = bursts_of(
-          stored_[static_cast<std::size_t>(column.at.pass % slots_->copies)]->bits_of(column.at.number));
+      column.bursts = bursts_of(stored_[column.at.pass % slots_->copies]->bits_of(column.at.number));
   }
 }
 
@@ -136,7 +135,7 @@ void ColumnOutput::begin(const ColumnSlots& slots, memory::Memory& memory, int p
   port_ = port;
   slots_ = slots;
   walk_.begin(slots, true);
-  passes_.resize(static_cast<std::size_t>(slots.columns));
+  passes_.resize(slots.columns);
   full_ = slots.head_bursts;
 }
 
@@ -160,10 +159,10 @@ void ColumnOutput::cycle(std::int64_t now) {
   }
   while (!bursts_.empty() && memory_->ready(port_)) {
     memory_->put(port_, {bursts_.front().address, 0, true, memory::kBurst});
-    if (bursts_.front().column >= 0) ++passes_[static_cast<std::size_t>(bursts_.front().column)];
+    if (bursts_.front().column >= 0) ++passes_[bursts_.front().column];
     bursts_.pop_front();
   }
-  waiting_[static_cast<std::size_t>((now + 1) & 1)] = static_cast<std::int64_t>(bursts_.size());
+  waiting_[(now + 1) & 1] = bursts_.size();
 }
 
 }  // namespace voxmelt::hwmodel

@@ -117,9 +117,7 @@ class ColumnOutput {
   void begin(const ColumnSlots& slots, memory::Memory& memory, int port);
   void add(int tile) { walk_.add(tile); }
 
-  bool may_write(std::int64_t now) const {
-    return waiting_[static_cast<std::size_t>(now & 1)] <= kBurstsAhead;
-  }
+  bool may_write(std::int64_t now) const { return waiting_[now & 1] <= kBurstsAhead; }
   void written(std::int64_t bits, bool ends, std::int64_t now) { events_.push_back({bits, ends, now}); }
   void cycle(std::int64_t now);
   bool settled() const { return events_.empty() && bursts_.empty(); }  // all was handed to the memory

@@ -24,7 +24,7 @@ MemoryStreams::MemoryStreams(const Design& design, int cascade, const memory::Pa
       clock_mhz_(clock_mhz),
       token_(std::int64_t{design.shape.lanes} * design.cell_bits()),
       tokens_(design.shape.tokens()),
-      feeds_(static_cast<std::size_t>(cascade)) {}
+      feeds_(cascade) {}
 
 MemoryStreams::MemoryStreams(const Design& design, int cascade, memory::Memory& shared, std::int64_t base)
     : MemoryStreams(design, cascade, memory::Parameters{}, 0) {
@@ -92,7 +92,7 @@ void MemoryStreams::add_pass(int tile, int fed) {
 
 void MemoryStreams::Feed::add(int tile) {
   tiles.push_back(tile);
-  pass = (*bits_of_tile)[static_cast<std::size_t>(tiles.front())];
+  pass = (*bits_of_tile)[tiles.front()];
 }
 
 void MemoryStreams::Feed::use(std::int64_t bits, bool ends, std::int64_t now) {
@@ -103,16 +103,16 @@ void MemoryStreams::Feed::use(std::int64_t bits, bool ends, std::int64_t now) {
     --asking;
   else
     asked_of_tile = 0;
-  if (!tiles.empty()) pass = (*bits_of_tile)[static_cast<std::size_t>(tiles.front())];
+  if (!tiles.empty()) pass = (*bits_of_tile)[tiles.front()];
 }
 
 void MemoryStreams::take(Input& from, std::int64_t now) {
-  std::int64_t come = from.come[static_cast<std::size_t>(now & 1)];
+  std::int64_t come = from.come[now & 1];
   while (memory_->reply(from.port) != nullptr) {
     memory_->take(from.port);
     come += kBurstBits;
   }
-  from.come[static_cast<std::size_t>((now + 1) & 1)] = come;
+  from.come[(now + 1) & 1] = come;
 }
 
 void MemoryStreams::ask(Input& from, std::int64_t address) {
@@ -123,7 +123,7 @@ void MemoryStreams::ask(Input& from, std::int64_t address) {
 void MemoryStreams::fetch(Feed& from, std::int64_t now) {
   take(from, now);
   for (; from.asking < from.tiles.size(); ++from.asking, from.asked_of_tile = 0) {
-    const auto tile = static_cast<std::size_t>(from.tiles[from.asking]);
+    const std::size_t tile = from.tiles[from.asking];
     while (from.asked_of_tile < irradiance_bits_[tile]) {
       if (!room(from, now)) return;
       ask(from, irradiance_at_[tile] + from.asked_of_tile / 8);
@@ -165,7 +165,7 @@ void MemoryStreams::cycle_state(std::int64_t now) {
     memory_->put(writer_, {base_ + handed_ % pass / 8, 0, true, memory::kBurst});
     handed_ += kBurstBits;
   }
-  unwritten_[static_cast<std::size_t>((now + 1) & 1)] = bits - handed_;
+  unwritten_[(now + 1) & 1] = bits - handed_;
   take(state_, now);
   const std::int64_t limit = std::min(pass + handed_, wanted_);
   while (state_.asked < limit && room(state_, now)) ask(state_, base_ + state_.asked % pass / 8);

@@ -44,9 +44,7 @@ class MemoryStreams final : public StreamMemory {
     const std::int64_t used = state_.used_of_pass() + token_;
     state_.use(used, used == state_.pass, now);
   }
-  void fed(int t, std::int64_t bits, bool ends, std::int64_t now) override {
-    feeds_[static_cast<std::size_t>(t)].use(bits, ends, now);
-  }
+  void fed(int t, std::int64_t bits, bool ends, std::int64_t now) override { feeds_[t].use(bits, ends, now); }
   void written(std::int64_t bits, bool ends, std::int64_t now) override {
     if (slots_) return written_columns_.written(of_column(bits, ends, tokens_put_), ends, now);
     ++tokens_written_;
@@ -78,9 +76,7 @@ class MemoryStreams final : public StreamMemory {
 
     std::int64_t used_of_pass() const { return used - begun; }
     // Returns true if the first `bits` of the present pass have come.
-    bool has(std::int64_t bits, std::int64_t now) const {
-      return begun + bits <= come[static_cast<std::size_t>(now & 1)];
-    }
+    bool has(std::int64_t bits, std::int64_t now) const { return begun + bits <= come[now & 1]; }
     // Says that the first `bits` are not needed any more. `ends` says that the rest of the pass is not,
     // either.
     void use(std::int64_t bits, bool ends, std::int64_t now) {
@@ -104,7 +100,7 @@ class MemoryStreams final : public StreamMemory {
   void open_ports();
   void cycle_state(std::int64_t now);
   bool has_come(const Input& from) const;
-  const Feed& feed(int t) const { return feeds_[static_cast<std::size_t>(t)]; }
+  const Feed& feed(int t) const { return feeds_[t]; }
   void take(Input& from, std::int64_t now);
   bool room(const Input& from, std::int64_t now) const {
     return from.asked - from.used_before(now) < kAhead && memory_->ready(from.port);

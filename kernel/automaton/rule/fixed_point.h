@@ -31,8 +31,7 @@ VOXMELT_RULE std::int32_t dither(std::uint32_t step, int part = 0, int parts = 1
   r = ((r & 0x3333u) << 2) | ((r >> 2) & 0x3333u);
   r = ((r & 0x0F0Fu) << 4) | ((r >> 4) & 0x0F0Fu);
   r = ((r & 0x00FFu) << 8) | ((r >> 8) & 0x00FFu);
-  return static_cast<std::int32_t>(
-      (r + 65536u * static_cast<std::uint32_t>(part) / static_cast<std::uint32_t>(parts)) & 0xFFFFu);
+  return (r + 65536u * part / parts) & 0xFFFFu;
 }
 
 }  // namespace voxmelt::rule

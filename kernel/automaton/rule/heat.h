@@ -48,14 +48,14 @@ VOXMELT_RULE std::int32_t radiated(std::int32_t h, std::int32_t irradiance, std:
 // temperatures.
 VOXMELT_RULE std::int32_t exchanged(std::int32_t h, std::int32_t air, std::int32_t exchange, int exposed_axes,
                                     std::int32_t dither, const Material& material) {
-  const std::int32_t rate = (exchange * kExposure[static_cast<std::size_t>(exposed_axes)]) >> 12;
+  const std::int32_t rate = (exchange * kExposure[exposed_axes]) >> 12;
   return std::min(scaled(air - temperature_of(h, material), rate, dither), kTemperatureMax - h);
 }
 
 // Returns the heat of a cell after its contents were mixed, since heat travels with liquid. `content` is the
 // sum of amount x h over the new contents of the cell. `amount` is its new amount (> 0).
 VOXMELT_RULE std::int32_t mixed(std::uint64_t content, std::uint64_t amount, std::int32_t dither) {
-  const std::uint64_t offset = (amount * static_cast<std::uint64_t>(dither)) >> 16;
+  const std::uint64_t offset = (amount * dither) >> 16;
   return static_cast<std::int32_t>((content + offset) / amount);
 }
 

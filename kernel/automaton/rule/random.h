@@ -37,7 +37,7 @@ VOXMELT_RULE RoundKeys round_keys(std::uint64_t seed, std::uint32_t last_word = 
 VOXMELT_RULE std::uint64_t random_block(const RoundKeys& key, std::uint32_t step, std::uint32_t block) {
   std::uint32_t x = step, y = block;
   for (int i = 0; i < kRandomRounds; ++i) {
-    x = (std::rotr(x, 8) + y) ^ key[static_cast<std::size_t>(i)];
+    x = (std::rotr(x, 8) + y) ^ key[i];
     y = std::rotl(y, 3) ^ x;
   }
   return (std::uint64_t{x} << 32) | y;
@@ -46,9 +46,7 @@ VOXMELT_RULE std::uint64_t random_block(const RoundKeys& key, std::uint32_t step
 // Blocks are numbered along x, then y, then z. A row of nx cells has ceil(nx / 8) of them.
 VOXMELT_RULE std::uint32_t random_block_index(int x, int y, int z, int nx, int ny) {
   const std::uint32_t row_blocks = (static_cast<std::uint32_t>(nx) + 7) / 8;
-  return (static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(ny) + static_cast<std::uint32_t>(y)) *
-             row_blocks +
-         static_cast<std::uint32_t>(x) / 8;
+  return (static_cast<std::uint32_t>(z) * ny + y) * row_blocks + static_cast<std::uint32_t>(x) / 8;
 }
 
 VOXMELT_RULE std::uint8_t random_byte(std::uint64_t block, int x) {

@@ -41,12 +41,8 @@ class CellRays {
     sight_.face = face_of(number);
     if (!with_kind(kind_, [](auto one) { return one.kTurns; })) return;
     const auto [nx, ny, nz] = sight_.setting.grid;
-    const auto index = (static_cast<std::uint64_t>(cell_[2]) * static_cast<std::uint64_t>(ny) +
-                        static_cast<std::uint64_t>(cell_[1])) *
-                           static_cast<std::uint64_t>(nx) +
-                       static_cast<std::uint64_t>(cell_[0]);
-    sight_.word = random_block(sight_.setting.keys, static_cast<std::uint32_t>(number),
-                               static_cast<std::uint32_t>(index));
+    const auto index = (static_cast<std::uint64_t>(cell_[2]) * ny + cell_[1]) * nx + cell_[0];
+    sight_.word = random_block(sight_.setting.keys, number, static_cast<std::uint32_t>(index));
   }
 
   // Returns the start of ray side x i + j.

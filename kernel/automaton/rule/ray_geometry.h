@@ -17,9 +17,7 @@ namespace voxmelt::rule {
 using Triple = std::array<std::int64_t, 3>;
 VOXMELT_RULE Triple triple(const Position& p) { return {p.x, p.y, p.z}; }
 VOXMELT_RULE Position position(const Triple& t) { return {t[0], t[1], t[2]}; }
-VOXMELT_RULE std::uint64_t squared(const Triple& t) {
-  return static_cast<std::uint64_t>(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
-}
+VOXMELT_RULE std::uint64_t squared(const Triple& t) { return t[0] * t[0] + t[1] * t[1] + t[2] * t[2]; }
 
 // Faces are numbered +x, -x, +y, -y, +z, -z.
 inline constexpr int kFaces = 6;
@@ -46,13 +44,13 @@ struct DiscPlace {
 
 // Spreads the places of the rays of a face evenly, and turns them by the face's random word.
 VOXMELT_RULE DiscPlace disc_place(std::uint64_t word, int ray, int rays) {
-  const auto n = static_cast<std::uint64_t>(ray);
+  const std::uint64_t n = ray;
   const std::uint64_t reversed = rays == 16  ? (n & 1) << 3 | (n & 2) << 1 | (n & 4) >> 1 | (n & 8) >> 3
                                  : rays == 4 ? (n & 1) << 1 | (n & 2) >> 1
                                              : n;
   const std::uint64_t each = 65536u / static_cast<std::uint64_t>(rays);
   const std::uint64_t u = (word + each * n) & 0xFFFF, v = ((word >> 16) + each * reversed) & 0xFFFF;
-  const auto rho = static_cast<std::int64_t>(square_root((2 * v + 1) << 11));
+  const std::int64_t rho = square_root((2 * v + 1) << 11);
   const std::size_t c = u >> 8 & 63;
   const std::int64_t p = 1 + ((rho * kCosine[c]) >> 14), q = 1 + ((rho * kCosine[63 - c]) >> 14);
   switch (u >> 14) {
@@ -72,7 +70,7 @@ struct DiscAxes {
   Triple g{}, v{};
 };
 VOXMELT_RULE Triple lengthened(const Triple& t) {
-  const auto length = static_cast<std::int64_t>(square_root(squared(t) << 12));
+  const std::int64_t length = square_root(squared(t) << 12);
   Triple result{};
   for (std::size_t a = 0; a < 3; ++a) {
     const std::int64_t over = t[a] * (std::int64_t{1} << 20);

@@ -36,9 +36,8 @@ VOXMELT_RULE std::int32_t vented_energy(std::int32_t added, std::int32_t energy)
 VOXMELT_RULE std::int64_t between(std::int64_t a, std::int64_t b, std::int64_t i, std::int64_t n) {
   const std::int64_t difference = b - a;
   const std::int64_t whole = difference / n - (difference % n < 0 ? 1 : 0);
-  const auto rest = static_cast<std::uint64_t>(difference - whole * n);
-  return a + whole * i +
-         static_cast<std::int64_t>(rest * static_cast<std::uint64_t>(i) / static_cast<std::uint64_t>(n));
+  const std::uint64_t rest = difference - whole * n;
+  return a + whole * i + (rest * i / n);
 }
 
 VOXMELT_RULE Position between(const Position& a, const Position& b, std::int64_t i, std::int64_t n) {
@@ -54,9 +53,7 @@ inline SourceKey source_at(const HeatSource& source, std::uint32_t step) {
   while (keys[k + 1].step <= step) ++k;
   const SourceKey &a = keys[k], &b = keys[k + 1];
   const std::int64_t i = step - a.step, n = b.step - a.step;
-  return {step, between(a.at, b.at, i, n),
-          static_cast<std::uint64_t>(
-              between(static_cast<std::int64_t>(a.power), static_cast<std::int64_t>(b.power), i, n)),
+  return {step, between(a.at, b.at, i, n), static_cast<std::uint64_t>(between(a.power, b.power, i, n)),
           between(a.radius, b.radius, i, n), between(a.direction, b.direction, i, n)};
 }
 

@@ -94,7 +94,7 @@ struct SphereSource {
     return sight.to(position(end));
   }
   VOXMELT_RULE static std::uint64_t receives(const Sight& sight, std::int64_t sum) {
-    const auto radius = static_cast<std::uint64_t>(sight.source.radius);
+    const std::uint64_t radius = sight.source.radius;
     return irradiance(sight.source.power, sum, sight.setting.rays(),
                       std::max(squared(sight.delta), radius * radius));
   }
@@ -115,7 +115,7 @@ struct DirectionalSource {
   VOXMELT_RULE static std::uint64_t receives(const Sight& sight, std::int64_t sum) {
     const std::uint64_t length = square_root(squared(triple(sight.source.direction)) << 12);
     return quotient(sight.source.power, 64 * static_cast<std::uint64_t>(sum),
-                    kOneCell * static_cast<std::uint64_t>(sight.setting.rays()) * length);
+                    kOneCell * sight.setting.rays() * length);
   }
 };
 
@@ -127,8 +127,7 @@ struct SkySource {
   VOXMELT_RULE static void prepare(Sight&) {}
   VOXMELT_RULE static SightRay ray(const Sight& sight, int n, const Position& start) {
     const DiscPlace place = disc_place(sight.word, n, sight.setting.rays());
-    const auto height = static_cast<std::int64_t>(
-        square_root((std::uint64_t{1} << 28) - static_cast<std::uint64_t>(place.rho * place.rho)));
+    const std::int64_t height = square_root((std::uint64_t{1} << 28) - (place.rho * place.rho));
     Triple way{};
     way[sight.face.axis] = sight.face.side * height;
     way[sight.next()] = place.p;
@@ -137,8 +136,7 @@ struct SkySource {
     return {1, leaving(triple(start), way, sight.setting.grid)};
   }
   VOXMELT_RULE static std::uint64_t receives(const Sight& sight, std::int64_t sum) {
-    return quotient(sight.source.power, static_cast<std::uint64_t>(sum),
-                    kOneCell * static_cast<std::uint64_t>(sight.setting.rays()));
+    return quotient(sight.source.power, sum, kOneCell * sight.setting.rays());
   }
 };
 

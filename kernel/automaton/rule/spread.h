@@ -13,7 +13,7 @@ namespace voxmelt::rule {
 
 VOXMELT_RULE std::int32_t thermal_share(std::int32_t share, std::int32_t h, const Flow& flow) {
   if (!flow.thermal_viscosity) return share;
-  return std::min((share * std::int32_t{flow.mobility_table[static_cast<std::size_t>(h >> 11)]}) >> 15,
+  return std::min((share * std::int32_t{flow.mobility_table[h >> 11]}) >> 15,
                   largest_share(flow.paper.neighbours));
 }
 

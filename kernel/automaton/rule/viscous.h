@@ -73,22 +73,21 @@ VOXMELT_RULE std::int32_t bed_head(int y, std::int32_t bed_amount) {
 // step does (Hermite's identity). The layers of a run, by their height y, round in turn. No two dithers of a
 // mixture are alike, and that of sub-step 0 is the step's.
 VOXMELT_RULE std::int32_t pair_dither(std::uint32_t step, int axis, int y, int k, int n) {
-  const std::int32_t offset = (dither(step, axis, 4) + dither(static_cast<std::uint32_t>(y))) & 0xFFFF;
+  const std::int32_t offset = (dither(step, axis, 4) + dither(y)) & 0xFFFF;
   return (offset + 65536 * ((k + axis * n / 4) % n)) / n;
 }
 VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
-  return (dither(step) + dither(static_cast<std::uint32_t>(k))) & 0xFFFF;
+  return (dither(step) + dither(k)) & 0xFFFF;
 }
 
 // Returns the mobility kq M^2, in 1/2^24 and without a limit, in one of n sub-steps. The run has the sum
 // `mass` and the heat content h.
 VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const Flow& flow, int substeps) {
-  const auto n = static_cast<std::uint64_t>(substeps);
+  const std::uint64_t n = substeps;
   const std::uint64_t pace = (flow.viscous.mobility + n / 2) / n;
-  const auto depth = static_cast<std::uint64_t>(std::min<std::int64_t>(mass, 64 * kOne));
-  auto mobility = static_cast<std::int64_t>((pace * (depth * depth >> 8) + (1 << 23)) >> 24);
-  if (flow.thermal_viscosity)
-    mobility = (mobility * flow.mobility_table[static_cast<std::size_t>(h >> 11)]) >> 15;
+  const std::uint64_t depth = std::min<std::int64_t>(mass, 64 * kOne);
+  std::int64_t mobility = (pace * (depth * depth >> 8) + (1 << 23)) >> 24;
+  if (flow.thermal_viscosity) mobility = (mobility * flow.mobility_table[h >> 11]) >> 15;
   return mobility;
 }
 // Limits the mobility, in 1/65536. So a column gives at most a fifth of a cell of height to another column.
@@ -143,16 +142,15 @@ inline constexpr std::array<SlopeTable, 2> kSlopeFactor = [] {  // [diagonal]
   std::array<SlopeTable, 2> factor{};
   for (std::int64_t t = 0; t <= kSteepest; ++t) {
     const std::int64_t axis = 256 + 2 * t * t, root = 65536 + 256 * t * t + t * t * t * t, both = root * root;
-    factor[0][static_cast<std::size_t>(t)] = static_cast<std::int32_t>(((1 << 22) + axis / 2) / axis);
-    factor[1][static_cast<std::size_t>(t)] =
-        static_cast<std::int32_t>(((std::int64_t{1} << 46) + both / 2) / both);
+    factor[0][t] = static_cast<std::int32_t>(((1 << 22) + axis / 2) / axis);
+    factor[1][t] = static_cast<std::int32_t>(((std::int64_t{1} << 46) + both / 2) / both);
   }
   return factor;
 }();
 VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, bool diagonal) {
   const SlopeTable& factor = kSlopeFactor[diagonal ? 1 : 0];
   if (bed == kNoBed || other == kNoBed) return factor[0];
-  return factor[static_cast<std::size_t>(std::min(kSteepest, std::max(bed - other, other - bed)))];
+  return factor[std::min(kSteepest, std::max(bed - other, other - bed))];
 }
 
 // Returns the amount that flows at a drop. Between level beds it is the mean of both cells, since the face

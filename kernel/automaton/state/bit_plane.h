@@ -19,8 +19,7 @@ class BitPlane {
   explicit BitPlane(Grid grid)
       : grid_(grid),
         row_words_((static_cast<std::size_t>(grid.x) + 63) / 64),
-        pages_(row_words_ * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z) *
-               sizeof(std::uint64_t)) {}
+        pages_(row_words_ * grid.y * grid.z * sizeof(std::uint64_t)) {}
 
   bool empty() const { return row_words_ == 0; }
   bool test(int x, int y, int z) const { return (data()[word_index(x, y, z)] >> (x & 63)) & 1u; }
@@ -55,9 +54,7 @@ class BitPlane {
 
  private:
   std::size_t word_index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(grid_.y) + static_cast<std::size_t>(y)) *
-               row_words_ +
-           static_cast<std::size_t>(x) / 64;
+    return (static_cast<std::size_t>(z) * grid_.y + y) * row_words_ + static_cast<std::size_t>(x) / 64;
   }
 
   Grid grid_{};

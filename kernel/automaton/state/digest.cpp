@@ -38,14 +38,14 @@ bool any_of(const std::uint64_t* mask, std::size_t w, int /*bits past the grid a
 template <class T>
 bool any_of(const T* numbers, std::size_t w, int count) {
   unsigned bits = 0;
-  for (int i = 0; i < count; ++i) bits |= numbers[64 * w + static_cast<std::size_t>(i)];
+  for (int i = 0; i < count; ++i) bits |= numbers[64 * w + i];
   return bits != 0;
 }
 
 std::uint64_t value_of(const std::uint64_t* mask, std::size_t w, int bit) { return mask[w] >> bit & 1u; }
 template <class T>
 std::uint64_t value_of(const T* numbers, std::size_t w, int bit) {
-  return numbers[64 * w + static_cast<std::size_t>(bit)];
+  return numbers[64 * w + bit];
 }
 
 template <std::size_t i>

@@ -23,13 +23,10 @@ class Layout {
   Layout() = default;
   explicit Layout(Grid grid)
       : row_((static_cast<std::size_t>(grid.x) + 63) / 64 * 64),
-        slice_(row_ * static_cast<std::size_t>(grid.y) + 64),
-        cells_(slice_ * static_cast<std::size_t>(grid.z)) {}
+        slice_(row_ * grid.y + 64),
+        cells_(slice_ * grid.z) {}
 
-  Slot at(int x, int y, int z) const {
-    return {static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(y) * row_ +
-            static_cast<std::size_t>(x)};
-  }
+  Slot at(int x, int y, int z) const { return {z * slice_ + y * row_ + x}; }
   std::size_t row() const { return row_; }      // cells from (x, y, z) to (x, y + 1, z)
   std::size_t slice() const { return slice_; }  // cells from (x, y, z) to (x, y, z + 1)
   std::size_t cells() const { return cells_; }  // with padding

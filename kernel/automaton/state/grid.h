@@ -8,14 +8,8 @@ namespace voxmelt::state {
 struct Grid {
   int x = 0, y = 0, z = 0;
 
-  std::size_t cells() const {
-    return static_cast<std::size_t>(x) * static_cast<std::size_t>(y) * static_cast<std::size_t>(z);
-  }
-  std::size_t index(int cx, int cy, int cz) const {
-    return (static_cast<std::size_t>(cz) * static_cast<std::size_t>(y) + static_cast<std::size_t>(cy)) *
-               static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(cx);
-  }
+  std::size_t cells() const { return static_cast<std::size_t>(x) * y * z; }
+  std::size_t index(int cx, int cy, int cz) const { return (static_cast<std::size_t>(cz) * y + cy) * x + cx; }
   bool contains(int cx, int cy, int cz) const {
     return cx >= 0 && cy >= 0 && cz >= 0 && cx < x && cy < y && cz < z;
   }

@@ -126,7 +126,7 @@ struct LanesOf {
       alignas(64) std::int32_t pairs[W::size];
       pairs_.store_aligned(pairs);
       std::uint64_t total = 0;
-      for (const std::int32_t sum : pairs) total += static_cast<std::uint32_t>(sum);
+      for (const std::int32_t sum : pairs) total += sum;
       return total;
     }
 

@@ -7,15 +7,13 @@
 namespace voxmelt::cpu {
 
 void Turns::sort(int count) {
-  const auto size = static_cast<std::size_t>(count);
+  const std::size_t size = count;
   if (times_.size() != size) {
     times_.assign(size, std::chrono::nanoseconds{0});
     order_.resize(size);
     std::iota(order_.begin(), order_.end(), 0);
   }
-  std::stable_sort(order_.begin(), order_.end(), [this](int a, int b) {
-    return times_[static_cast<std::size_t>(a)] < times_[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order_.begin(), order_.end(), [this](int a, int b) { return times_[a] < times_[b]; });
 }
 
 }  // namespace voxmelt::cpu

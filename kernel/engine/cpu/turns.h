@@ -12,7 +12,7 @@ class Turns {
  public:
   // Sorts the tasks 0 .. count - 1, the longest last. With a new count all tasks count as equally long.
   void sort(int count);
-  int at(int turn) const { return order_[static_cast<std::size_t>(turn)]; }
+  int at(int turn) const { return order_[turn]; }
 
   // Runs one task, and remembers how long it took. Several threads may do so at once, each for another task.
   template <class Task>
@@ -21,7 +21,7 @@ class Turns {
     run(task);
     took(task, std::chrono::steady_clock::now() - begin);
   }
-  void took(int task, std::chrono::nanoseconds time) { times_[static_cast<std::size_t>(task)] = time; }
+  void took(int task, std::chrono::nanoseconds time) { times_[task] = time; }
 
  private:
   std::vector<std::chrono::nanoseconds> times_;

@@ -17,8 +17,8 @@ class RunMemory {
  public:
   explicit RunMemory(state::Grid grid)
       : planes_{state::BitPlane(grid), state::BitPlane(grid)},
-        deep_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)),
-        limits_((static_cast<std::size_t>(grid.x) + 63) / 64 * static_cast<std::size_t>(grid.z)) {
+        deep_(static_cast<std::size_t>(grid.y) * grid.z),
+        limits_((static_cast<std::size_t>(grid.x) + 63) / 64 * grid.z) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
     runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
              fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
@@ -36,7 +36,7 @@ class RunMemory {
 
 class SliceCurrents {
  public:
-  explicit SliceCurrents(state::Grid grid) : giving_(static_cast<std::size_t>(grid.y)) {
+  explicit SliceCurrents(state::Grid grid) : giving_(grid.y) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
     for (std::size_t i = 0; i < 4; ++i) currents_.flow[i] = fields_[i].data();
     for (std::size_t i = 0; i < 2; ++i) currents_.heat[i] = fields_[4 + i].data();

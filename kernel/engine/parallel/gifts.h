@@ -16,8 +16,8 @@ class SliceGifts {
   // (by direction).
   SliceGifts(const simd::View& view, int rows, int flows)
       : patterns_(array_cells(view, rows)),
-        giving_(sizeof(simd::TileRow) * count(rows) * static_cast<std::size_t>(view.words + 4)),
-        fields_(sizeof(std::uint16_t) * (array_cells(view, rows) * static_cast<std::size_t>(2 * flows + 1))) {
+        giving_(sizeof(simd::TileRow) * count(rows) * (view.words + 4)),
+        fields_(sizeof(std::uint16_t) * (array_cells(view, rows) * (2 * flows + 1))) {
     gifts_.rows = rows;
     gifts_.pattern = reinterpret_cast<std::uint8_t*>(patterns_.data()) + kGuard;
     gifts_.giving = reinterpret_cast<simd::TileRow*>(giving_.data());
@@ -43,7 +43,7 @@ class SliceGifts {
 
  private:
   static constexpr std::size_t kGuard = 64;
-  static std::size_t count(int n) { return static_cast<std::size_t>(n); }
+  static std::size_t count(int n) { return n; }
   static std::size_t array_cells(const simd::View& view, int rows) {
     return view.row * count(rows) + 2 * kGuard;
   }

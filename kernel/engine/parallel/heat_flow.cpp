@@ -20,13 +20,13 @@ HeatFlow::HeatFlow(state::Grid grid, const simd::View& view, int chunks)
       restless_(stale_),
       moved_(stale_),
       for_melt_(stale_),
-      chunk_(static_cast<std::size_t>(chunks_.count())),
-      cut_(static_cast<std::size_t>(chunks_.cuts())) {
+      chunk_(chunks_.count()),
+      cut_(chunks_.cuts()) {
   const state::Grid slice{grid.x, grid.y, 1};
   for (std::vector<Worker>* workers : {&chunk_, &cut_})
     for (Worker& worker : *workers) {
       worker.old.assign(2, Slice(slice));
-      worker.moved.resize(static_cast<std::size_t>(view.tile_rows()));
+      worker.moved.resize(view.tile_rows());
       worker.hot.resize(worker.moved.size());
     }
   for (Worker& worker : chunk_) {
@@ -104,7 +104,7 @@ void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
 // read.
 void HeatFlow::save_cuts(const Job& job) {
   job.workers.run(chunks_.cuts(), [&](int i) {
-    Worker& worker = cut_[static_cast<std::size_t>(i)];
+    Worker& worker = cut_[i];
     const int cut = chunks_.cut(i), rows = job.view.tile_rows();
     int first = rows, last = -1;
     for (int r = 0; r < rows; ++r)
@@ -113,8 +113,8 @@ void HeatFlow::save_cuts(const Job& job) {
         last = std::min(rows - 1, r + 1);
       }
     if (last < 0) return;
-    const std::size_t begin = job.view.row * static_cast<std::size_t>(job.view.tile_begin(first));
-    const std::size_t end = job.view.row * static_cast<std::size_t>(job.view.tile_end(last));
+    const std::size_t begin = job.view.row * job.view.tile_begin(first);
+    const std::size_t end = job.view.row * job.view.tile_end(last);
     for (std::size_t k = 0; k < 2; ++k)
       std::copy_n(heats(job, cut - 1 + static_cast<int>(k)) + begin, end - begin,
                   worker.old[k].data() + begin);
@@ -126,7 +126,7 @@ template <class Visit>
 void HeatFlow::sweep(const Job& job, const Visit& visit) {
   save_cuts(job);
   job.workers.run(chunks_.count(), sweep_turns_, [&](int chunk) {
-    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    Worker& worker = chunk_[chunk];
     const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
     for (int z = begin; z < end; ++z) {
       if (!awake_.any(z)) continue;
@@ -134,11 +134,11 @@ void HeatFlow::sweep(const Job& job, const Visit& visit) {
       if (z > begin)
         near.below = heats(job, z - 1);
       else if (chunk > 0)
-        near.below = cut_[static_cast<std::size_t>(chunk - 1)].old[0].data();
+        near.below = cut_[chunk - 1].old[0].data();
       if (z + 1 < end)
         near.above = heats(job, z + 1);
       else if (chunk < chunks_.cuts())
-        near.above = cut_[static_cast<std::size_t>(chunk)].old[1].data();
+        near.above = cut_[chunk].old[1].data();
       visit(z, worker, near);
     }
   });
@@ -168,7 +168,7 @@ void HeatFlow::with_walls(const Job& job, const simd::WallKernels& walls, const 
   const auto each_slice = [&](const auto& visit) {
     job.workers.run(chunks_.count(), [&](int chunk) {
       for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z)
-        if (awake_.any(z)) visit(z, chunk_[static_cast<std::size_t>(chunk)]);
+        if (awake_.any(z)) visit(z, chunk_[chunk]);
     });
   };
   each_slice(
@@ -221,7 +221,7 @@ void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
 
 void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
   job.workers.run(chunks_.count(), melt_turns_, [&](int chunk) {
-    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    Worker& worker = chunk_[chunk];
     const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       if (!job.sleep) std::fill_n(for_melt_.edit(z), for_melt_.rows(), all);

@@ -29,18 +29,18 @@ PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view,
       bands_(view),
       fallen_(view.nz, view.tile_rows()),
       restless_(view.nz, view.tile_rows()),
-      chunk_(static_cast<std::size_t>(chunks_.count())),
-      cut_(static_cast<std::size_t>(chunks_.cuts())),
+      chunk_(chunks_.count()),
+      cut_(chunks_.cuts()),
       none_(view, view.ny, 1) {
   const int flows = parameters.flow.paper.use_table ? 4 : 2;
   const int tile = std::min(1 << view.tile_shift, view.ny), tall = std::min(1 << bands_.shift(), view.ny);
   for (Worker& worker : chunk_) {
     for (int i = 0; i < 3; ++i) worker.gifts.emplace_back(view, tile, flows);
     for (int i = 0; i < 3; ++i) worker.tall_gifts.emplace_back(view, tall, flows);
-    worker.follow.resize(static_cast<std::size_t>(view.nz));
+    worker.follow.resize(view.nz);
     worker.moved.resize(static_cast<std::size_t>(view.tile_rows()) + 1);
-    worker.awake.resize(static_cast<std::size_t>(view.nz));
-    worker.ceiling.resize(static_cast<std::size_t>(view.nz) * static_cast<std::size_t>(view.words));
+    worker.awake.resize(view.nz);
+    worker.ceiling.resize(static_cast<std::size_t>(view.nz) * view.words);
   }
   for (Worker& worker : cut_) {
     for (int i = 0; i < 2; ++i) worker.gifts.emplace_back(view, view.ny, flows);
@@ -50,7 +50,7 @@ PaperFlow::PaperFlow(const rule::Parameters& parameters, const simd::View& view,
 
 void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) {
   job.workers.run(chunks_.count(), gravity_turns_, [&](int chunk) {
-    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    Worker& worker = chunk_[chunk];
     const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
     const Slices later = put_off(chunk);
     worker.ahead = job.ahead && later.begin < later.end &&
@@ -59,7 +59,7 @@ void PaperFlow::gravity(const Job& job, const Tiles& dirty, simd::Books& books) 
       const bool waits = worker.ahead && z >= later.begin && z < later.end;
       if (waits) {
         fallen_.clear(z);
-        worker.follow[static_cast<std::size_t>(z)] = 0;
+        worker.follow[z] = 0;
       } else
         fall(job, dirty, z, worker);
     }
@@ -102,8 +102,8 @@ void PaperFlow::fall(const Job& job, const Tiles& dirty, int z, Worker& worker) 
 void PaperFlow::fall_band(const Job& job, const Band& band, int z, Worker& worker) {
   TileRow *moved = worker.moved.data() + band.row, *fallen = fallen_.edit(z);
   moved[0] = moved[1] = 0;
-  job.kernels.gravity(band.view, job.step, z, band.row, all_words(job.view),
-                      worker.follow[static_cast<std::size_t>(z)], worker.moved.data(), worker.books);
+  job.kernels.gravity(band.view, job.step, z, band.row, all_words(job.view), worker.follow[z],
+                      worker.moved.data(), worker.books);
   for (int r = band.begin; r < band.end; ++r) fallen[r] |= moved[0];
   if (moved[1] != 0) fallen[band.end] |= moved[1];
 }
@@ -136,12 +136,12 @@ bool PaperFlow::awake(const Sweep& sweep, int z) const {
 // Finds the gifts of the two slices at a cut before either side changes them.
 void PaperFlow::run_cut(const Sweep& sweep, int cut) {
   const simd::View& view = sweep.job.view;
-  Worker& worker = cut_[static_cast<std::size_t>(cut)];
+  Worker& worker = cut_[cut];
   for (int k = 0; k < 2; ++k) {
     const int z = chunks_.cut(cut) - 1 + k;
-    SliceGifts& gifts = worker.gifts[static_cast<std::size_t>(k)];
-    worker.awake[static_cast<std::size_t>(k)] = awake(sweep, z);
-    if (!worker.awake[static_cast<std::size_t>(k)] && gifts.empty()) continue;
+    SliceGifts& gifts = worker.gifts[k];
+    worker.awake[k] = awake(sweep, z);
+    if (!worker.awake[k] && gifts.empty()) continue;
     for (int r = 0; r < view.tile_rows(); ++r)
       find_patterns(sweep, Bands::single(view, r), z, gifts.gifts().tiles(view, r), nullptr, gifts);
     restless_.tidy(z);
@@ -150,18 +150,18 @@ void PaperFlow::run_cut(const Sweep& sweep, int cut) {
 
 void PaperFlow::run_chunk(const Sweep& sweep, int chunk) {
   const simd::View& view = sweep.job.view;
-  Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+  Worker& worker = chunk_[chunk];
   const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
   bool any_awake = false, all_awake = true;
   for (int z = begin; z < end; ++z) {
     sweep.dirty_next.clear(z);
     const bool one = worker.ahead || awake(sweep, z);
-    worker.awake[static_cast<std::size_t>(z)] = one;
+    worker.awake[z] = one;
     any_awake = any_awake || one;
     all_awake = all_awake && one;
   }
-  const bool beside = (chunk > 0 && !cut_[static_cast<std::size_t>(chunk - 1)].gifts[0].empty()) ||
-                      (chunk < chunks_.cuts() && !cut_[static_cast<std::size_t>(chunk)].gifts[1].empty());
+  const bool beside = (chunk > 0 && !cut_[chunk - 1].gifts[0].empty()) ||
+                      (chunk < chunks_.cuts() && !cut_[chunk].gifts[1].empty());
   if (!any_awake && !beside) return;
   for (int r = 0; r < view.tile_rows();) {
     const int last = bands_.end(r);
@@ -183,15 +183,15 @@ void PaperFlow::run_chunk(const Sweep& sweep, int chunk) {
 
 void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::vector<SliceGifts>& ring) {
   const Job& job = sweep.job;
-  Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+  Worker& worker = chunk_[chunk];
   const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
   const bool cut_before = chunk > 0, cut_after = chunk < chunks_.cuts();
   for (SliceGifts& gifts : ring) gifts.gifts().first_row = band.view.tile_begin(band.row);
 
   const auto saved = [&](int z) -> const SliceGifts& {  // all rows of a slice
     if (z < 0 || z >= job.view.nz) return none_;
-    if (cut_before && z <= begin) return cut_[static_cast<std::size_t>(chunk - 1)].gifts[z == begin ? 1 : 0];
-    return cut_[static_cast<std::size_t>(chunk)].gifts[z == end ? 1 : 0];
+    if (cut_before && z <= begin) return cut_[chunk - 1].gifts[z == begin ? 1 : 0];
+    return cut_[chunk].gifts[z == end ? 1 : 0];
   };
   struct Given {
     const simd::Gifts* gifts;
@@ -203,7 +203,7 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
     return Given{&rows.gifts(), tiles};
   };
   const auto ceiling = [&](int z) {
-    return worker.ceiling.data() + static_cast<std::size_t>(z) * static_cast<std::size_t>(job.view.words);
+    return worker.ceiling.data() + static_cast<std::size_t>(z) * job.view.words;
   };
 
   // The patterns of the slices beside a cut are already found.
@@ -214,7 +214,7 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
   for (int z = begin - 1; z < end; ++z) {
     for (; falls.begin < std::min(z + 3, falls.end); ++falls.begin) fall_band(job, band, falls.begin, worker);
     if (z + 1 >= pattern_from && z + 1 < pattern_to) {
-      SliceGifts& next = ring[static_cast<std::size_t>((z + 1) % 3)];
+      SliceGifts& next = ring[(z + 1) % 3];
       const TileRow& tiles = next.gifts().tiles(band.view, band.row);
       const bool awake_next = worker.awake[static_cast<std::size_t>(z) + 1] != 0;
       if (awake_next && !worker.ahead)
@@ -227,7 +227,7 @@ void PaperFlow::run_band(const Sweep& sweep, int chunk, const Band& band, std::v
     }
     if (z >= begin) {
       std::copy_n(last_row, job.view.words, ceiling(z));
-      last_row += static_cast<std::size_t>(job.view.words) * static_cast<std::size_t>(job.view.ny);
+      last_row += static_cast<std::size_t>(job.view.words) * job.view.ny;
       if ((below.tiles | own.tiles | above.tiles) != 0) {
         const TileRow changed = job.kernels.apply(band.view, job.step, z, band.row, *below.gifts, *own.gifts,
                                                   *above.gifts, worker.books);

@@ -87,7 +87,7 @@ void Stepper::change_sources(const rule::Parameters& parameters) {
 
 simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::Moment moment,
                    const std::uint32_t* keys, const step::Irradiance* irradiance) {
-  const auto dither = static_cast<std::uint32_t>(rule::dither(moment.step));
+  const std::uint32_t dither = rule::dither(moment.step);
   simd::Step step{&parameters, moment.step, dither, keys,
                   irradiance == nullptr ? nullptr : irradiance->data()};
   if (parameters.flow.law == rule::Law::paper) return step;
@@ -98,7 +98,7 @@ simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::
     step.turn[axis] = 65536 * ((k + axis * n / 4) % n);
   }
   if (phase == step::Phase::excess || phase == step::Phase::spread)
-    step.dither = (dither + static_cast<std::uint32_t>(rule::dither(k))) & 0xFFFF;
+    step.dither = (dither + rule::dither(k)) & 0xFFFF;
   return step;
 }
 

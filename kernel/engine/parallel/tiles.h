@@ -73,7 +73,7 @@ class Tiles {
   }
 
  private:
-  static std::size_t count(int z) { return static_cast<std::size_t>(z); }
+  static std::size_t count(int z) { return z; }
   std::size_t index(int z) const { return count(z + 1) * count(rows_ + 2) + 1; }
 
   int slices_ = 0, rows_ = 0;

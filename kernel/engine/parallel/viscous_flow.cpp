@@ -16,12 +16,12 @@ ViscousFlow::ViscousFlow(state::Grid grid, const simd::View& view, int chunks)
       restless_(for_settle_),
       changed_(for_settle_),
       changed_before_(for_settle_),
-      chunk_(static_cast<std::size_t>(chunks_.count())),
-      cut_(static_cast<std::size_t>(chunks_.cuts())),
+      chunk_(chunks_.count()),
+      cut_(chunks_.cuts()),
       none_(grid) {
   const auto prepare = [&](Worker& worker, int slices) {
     for (int i = 0; i < slices; ++i) worker.ring.emplace_back(grid);
-    worker.work.resize(static_cast<std::size_t>(view.tile_rows()));
+    worker.work.resize(view.tile_rows());
     worker.changed.resize(worker.work.size());
   };
   for (Worker& worker : chunk_) {
@@ -50,7 +50,7 @@ const Tiles& ViscousFlow::take_changed() {
 void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool beside, Worker& worker) {
   const TileRow all = all_words(job.view);
   for (int r = 0; r < job.view.tile_rows(); ++r) {
-    TileRow& work = worker.work[static_cast<std::size_t>(r)];
+    TileRow& work = worker.work[r];
     work = !job.sleep ? all : beside ? noted->near(z, r, all) : noted->slice(z)[r];
   }
   std::fill(worker.changed.begin(), worker.changed.end(), TileRow{0});
@@ -61,7 +61,7 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
   if (job.step.substeps != substeps_) for_settle_.fill(all_words(job.view));
   substeps_ = job.step.substeps;
   job.workers.run(chunks_.count(), settle_turns_, [&](int chunk) {
-    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    Worker& worker = chunk_[chunk];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       if (job.sleep && !for_settle_.any(z)) continue;
       find_work(job, &for_settle_, z, false, worker);
@@ -93,7 +93,7 @@ void ViscousFlow::spread(const Job& job, simd::Books& books) {
   std::swap(taken_, for_exchange_);
   // The slice before a cut exchanges with the one after it before either is changed.
   job.workers.run(chunks_.cuts(), cut_turns_, [&](int i) {
-    Worker& worker = cut_[static_cast<std::size_t>(i)];
+    Worker& worker = cut_[i];
     exchange(job, chunks_.cut(i) - 1, worker, worker.ring[0]);
   });
   job.workers.run(chunks_.count(), chunk_turns_, [&](int chunk) { spread_chunk(job, chunk); });
@@ -101,13 +101,13 @@ void ViscousFlow::spread(const Job& job, simd::Books& books) {
 }
 
 void ViscousFlow::spread_chunk(const Job& job, int chunk) {
-  Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+  Worker& worker = chunk_[chunk];
   const int begin = chunks_.begin(chunk), end = chunks_.end(chunk);
   const auto currents = [&](int z) -> SliceCurrents& {
     if (z < 0) return none_;
-    if (z < begin) return cut_[static_cast<std::size_t>(chunk - 1)].ring[0];
-    if (z == end - 1 && chunk < chunks_.cuts()) return cut_[static_cast<std::size_t>(chunk)].ring[0];
-    return worker.ring[static_cast<std::size_t>(z & 1)];
+    if (z < begin) return cut_[chunk - 1].ring[0];
+    if (z == end - 1 && chunk < chunks_.cuts()) return cut_[chunk].ring[0];
+    return worker.ring[z & 1];
   };
   for (int z = begin; z < end; ++z) {
     SliceCurrents &own = currents(z), &below = currents(z - 1);
@@ -124,7 +124,7 @@ void ViscousFlow::spread_chunk(const Job& job, int chunk) {
 void ViscousFlow::fall(const Job& job, simd::Books& books) {
   std::swap(taken_, for_fall_);
   job.workers.run(chunks_.count(), fall_turns_, [&](int chunk) {
-    Worker& worker = chunk_[static_cast<std::size_t>(chunk)];
+    Worker& worker = chunk_[chunk];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       for_fall_.clear(z);
       if (job.sleep && !taken_.any_near(z)) continue;

@@ -7,8 +7,7 @@
 namespace voxmelt::parallel {
 
 Walls::Walls(const simd::View& view)
-    : pages_(sizeof(std::uint64_t) * static_cast<std::size_t>(view.words + 2) *
-             static_cast<std::size_t>(view.ny + 2) * static_cast<std::size_t>(view.nz + 2)) {
+    : pages_(sizeof(std::uint64_t) * (view.words + 2) * (view.ny + 2) * (view.nz + 2)) {
   for (int z = -1; z <= view.nz; ++z)
     for (int y = -1; y <= view.ny; ++y) {
       std::uint64_t* walls = row(view, y, z);

@@ -22,7 +22,7 @@ class Walls {
     std::uint64_t* walls = row(view, y, z);
     const std::size_t masks = view.word(0, y, z);
     for (int w = 0; w < view.words; ++w) {
-      const std::size_t at = static_cast<std::size_t>(w);
+      const std::size_t at = w;
       walls[w] = view.solid[masks + at] | view.inert[masks + at];
     }
     walls[view.words - 1] |= ~view.last_word;

@@ -8,9 +8,7 @@ namespace voxmelt::scalar {
 
 ActiveRows::ActiveRows(const state::Volume& volume) : rows_(volume.grid.y), slices_(volume.grid.z) {
   const state::Grid g = volume.grid;
-  const auto index = [&](int y, int z) {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(y);
-  };
+  const auto index = [&](int y, int z) { return static_cast<std::size_t>(z) * rows_ + y; };
 
   // Finds where each row itself holds matter.
   std::vector<Interval> own(index(0, slices_), Interval{g.x, 0});

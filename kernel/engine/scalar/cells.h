@@ -54,10 +54,7 @@ class ActiveRows {
   struct Interval {
     int begin, end;
   };
-  Interval operator()(int y, int z) const {
-    return intervals_[static_cast<std::size_t>(z) * static_cast<std::size_t>(rows_) +
-                      static_cast<std::size_t>(y)];
-  }
+  Interval operator()(int y, int z) const { return intervals_[static_cast<std::size_t>(z) * rows_ + y]; }
 
   // Calls visit(x, y, z) for every active cell: x fastest, then y ascending, then z.
   template <class Visit>

@@ -70,7 +70,7 @@ void move_in_order(const Run& run, std::int32_t offset) {
   std::vector<std::int64_t> below;  // for each face: the run's mass below it, before anything moves
   std::int64_t sum = 0;
   for (std::int32_t k = 0; k < run.n - 1; ++k) below.push_back(sum += run.amount(k));
-  const auto below_face = [&](std::int32_t k) { return below[static_cast<std::size_t>(k)]; };
+  const auto below_face = [&](std::int32_t k) { return below[k]; };
   for (std::int32_t k = 0; k < run.n - 1; ++k)
     move_part(run, k, k + 1, rule::settles_up(rule::face_excess(below_face(k), k)), offset);
   for (std::int32_t k = run.n - 2; k >= 0; --k)
@@ -86,7 +86,7 @@ void settle_heat(const Run& run, std::int32_t offset) {
   if (keeps_order(run))
     move_in_order(run, offset);
   else
-    mix_all(run, rule::mixed(run.content, static_cast<std::uint64_t>(run.mass), offset));
+    mix_all(run, rule::mixed(run.content, run.mass, offset));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
     if (run.n == 0) return bottom;
     if (hot) settle_heat(run, offset);
     ledger.heat.rounded -= static_cast<state::Sum>(run.content);
-    const auto mean = static_cast<std::int32_t>(run.content / static_cast<std::uint64_t>(run.mass));
+    const auto mean = static_cast<std::int32_t>(run.content / run.mass);
     const rule::Column column =
         rule::run_column(run.mass, run.n, bed_under(run), mean, parameters_.flow, moment.substeps);
     std::int64_t held = 0;  // cells of the run that hold something

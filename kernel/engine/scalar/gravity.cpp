@@ -61,10 +61,9 @@ class PairMoves {
     if (hot_) {
       const std::uint64_t content = std::uint64_t{volume_.amount[to]} * volume_.heat[to] +
                                     static_cast<std::uint64_t>(flow) * volume_.heat[from];
-      const std::uint64_t after = std::uint64_t{volume_.amount[to]} + static_cast<std::uint64_t>(flow);
+      const std::uint64_t after = std::uint64_t{volume_.amount[to]} + flow;
       const std::int32_t h = rule::mixed(content, after, offset_);
-      ledger_.heat.rounded +=
-          static_cast<state::Sum>(after * static_cast<std::uint64_t>(h)) - static_cast<state::Sum>(content);
+      ledger_.heat.rounded += static_cast<state::Sum>(after * h) - static_cast<state::Sum>(content);
       volume_.heat[to] = static_cast<std::uint16_t>(h);
     }
     volume_.amount[from] = static_cast<std::uint16_t>(volume_.amount[from] - flow);

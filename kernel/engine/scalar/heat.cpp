@@ -32,7 +32,7 @@ void conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint3
       (wall ? from_walls : from_matter) += flux(rule::temperature_of(cells.heat(nx, ny, nz), material));
     };
     for (int part = 0; part < parts; ++part) {
-      const rule::Offset d = axes[static_cast<std::size_t>(part)];
+      const rule::Offset d = axes[part];
       const std::int32_t offset = rule::dither(step, part, parts);
       neighbour(x + d.dx, y + d.dy, z + d.dz,
                 [&](std::int32_t there) { return rule::conducted(own, there, weight, offset); });
@@ -113,8 +113,8 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
       ledger.heat.radiated += gain * amount;
     }
     if (const int axes = heat.air ? exposed_axes(cells, x, y, z) : 0; axes > 0) {
-      const std::int32_t gain = rule::exchanged(h, heat.air_temperature[static_cast<std::size_t>(y)],
-                                                heat.air_exchange, axes, offset, material);
+      const std::int32_t gain =
+          rule::exchanged(h, heat.air_temperature[y], heat.air_exchange, axes, offset, material);
       h += gain;
       (gain > 0 ? ledger.heat.warmed : ledger.heat.cooled) += (gain > 0 ? gain : -gain) * amount;
     }

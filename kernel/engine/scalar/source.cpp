@@ -51,7 +51,7 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
       if (parameters_.heat.enabled) {
         const std::uint64_t brought = static_cast<std::uint64_t>(added) * vent.temperature;
         const std::uint64_t content = static_cast<std::uint64_t>(before) * volume.heat[i] + brought;
-        const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(after), rule::dither(step));
+        const std::int32_t h = rule::mixed(content, after, rule::dither(step));
         volume.heat[i] = static_cast<std::uint16_t>(h);
         ledger.heat.added += static_cast<state::Sum>(brought);
         ledger.heat.rounded += static_cast<state::Sum>(after) * h - static_cast<state::Sum>(content);

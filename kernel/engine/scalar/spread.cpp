@@ -59,7 +59,7 @@ class Gifts {
       all.out.energy += mine.energy;
       const int nx = x + rule::kDirections[d].dx, nz = z + rule::kDirections[d].dz;
       if (!cells_.liquid(nx, y, nz)) continue;
-      const Gift theirs = given(nx, y, nz, static_cast<std::size_t>(rule::kOpposite[d]));
+      const Gift theirs = given(nx, y, nz, rule::kOpposite[d]);
       all.in.amount += theirs.amount;
       all.in.energy += theirs.energy;
       all.content += static_cast<std::uint64_t>(theirs.amount) * volume_.heat[cells_.at(nx, y, nz)];
@@ -141,7 +141,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
 
     if (hot && in.amount > 0) {
       content += static_cast<std::uint64_t>(volume.amount[i] - out.amount) * volume.heat[i];
-      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), offset);
+      const std::int32_t h = rule::mixed(content, amount, offset);
       ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
       next_.heat[i] = static_cast<std::uint16_t>(h);
     }

@@ -31,7 +31,7 @@ class Runs {
       next = cells_.amount(x, bottom + n, z);
       if (!rule::run_continues(mass, n, top, next)) break;
     } while (true);
-    const auto mean = static_cast<std::int32_t>(content / static_cast<std::uint64_t>(mass));
+    const auto mean = static_cast<std::int32_t>(content / mass);
     return rule::needed_substeps(mass, n, mean, parameters_.flow);
   }
 

@@ -68,7 +68,7 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
     next_.amount[i] = static_cast<std::uint16_t>(amount);
     if (hot && in > 0) {
       content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.heat[i];
-      const std::int32_t h = rule::mixed(content, static_cast<std::uint64_t>(amount), mixing);
+      const std::int32_t h = rule::mixed(content, amount, mixing);
       ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
       next_.heat[i] = static_cast<std::uint16_t>(h);
     }

@@ -113,7 +113,7 @@ class Apply {
         here | cpu::from_right(here, givers_[w + 1]) | cpu::from_left(here, givers_[w - 1]);
     const Item first =
         item(row.at + 64 * static_cast<std::uint32_t>(w), row.mask + static_cast<std::uint32_t>(w));
-    std::size_t next = static_cast<std::size_t>(count);
+    std::size_t next = count;
     for (int part = 0; part < L::kParts; ++part) {
       items_[next] = first + static_cast<Item>(part * L::kCount);
       next += (any & kAll << (part * L::kCount)) != 0;
@@ -265,8 +265,8 @@ class Apply {
   }
 
   [[gnu::always_inline]] void flush() {
-    books_.energy.dissipated += static_cast<std::int64_t>(dissipated_.total());
-    books_.energy.capped += static_cast<std::int64_t>(capped_.total());
+    books_.energy.dissipated += dissipated_.total();
+    books_.energy.capped += capped_.total();
     dissipated_ = capped_ = {};
     if constexpr (kFeatures.hot) books_.heat.rounded += mix_.flush();
   }

@@ -172,7 +172,7 @@ class FaceConduction {
   };
 
   [[gnu::always_inline]] Sum word(const Row& row, int w, std::uint64_t own) {
-    const auto in_words = static_cast<std::size_t>(w);
+    const std::size_t in_words = w;
     const std::uint64_t right = w + 1 < v_.words ? row.own(w + 1) : 0;
     const Pairs pairs{own & cpu::from_right(own, right), row.last_row ? 0 : own & row.above(in_words),
                       row.last_slice ? 0 : own & row.ahead(in_words)};

@@ -16,7 +16,7 @@ VOXMELT_LANES typename cpu::Lanes<Arch>::V contact_alpha(const View& view, const
                                                          bool floor, std::size_t word, int part) {
   using L = cpu::Lanes<Arch>;
   if (floor) return L::set(law.alpha_floor);
-  const std::size_t below = word - static_cast<std::size_t>(view.words);
+  const std::size_t below = word - view.words;
   const std::uint64_t solid = view.solid[below], inert = view.inert[below];
   if ((solid | inert) == 0) return L::set(law.alpha_liquid);
   const auto on_solid =

@@ -170,7 +170,7 @@ class DistantConduction {
     Sum sum{L::zero(), L::zero()};
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(own, part)) continue;
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const std::size_t at = part * L::kCount;
       const V old = L::load(before + at);
       const V gained = gain(part, plateau_(old)), now = old + gained;
       L::store(v_.heat + cell + at, now);
@@ -188,7 +188,7 @@ class DistantConduction {
     V differ = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(own, part)) continue;
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const std::size_t at = part * L::kCount;
       const V heat = plateau_(L::load(slices_[1] + v_.cell(w, y, 0) + at));
       for (int k = 0; k < Axes::kCount; ++k)
         for (const Neighbour* one : {&to[k], &from[k]})

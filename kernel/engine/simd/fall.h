@@ -59,7 +59,7 @@ class FallOutside {
     std::uint64_t low_wet = 0, high_wet = 0;
     const std::size_t low_word = v_.word(w, y, z_), high_word = v_.word(w, y + 1, z_);
     for (int part = 0; part < L::kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(part * L::kCount);
+      const std::size_t at = part * L::kCount;
       if (!L::in_part(open, part)) {
         low_wet |= v_.liquid[low_word] & kAll << (part * L::kCount);
         high_wet |= v_.liquid[high_word] & kAll << (part * L::kCount);

@@ -20,8 +20,7 @@ VOXMELT_LANES std::uint64_t matter(const View& v, int w, int y, int z) {
 
 // Returns D(s, part, parts).
 VOXMELT_LANES std::uint32_t part_dither(const Step& step, int part, int parts) {
-  return (step.dither + 65536u * static_cast<std::uint32_t>(part) / static_cast<std::uint32_t>(parts)) &
-         0xFFFFu;
+  return (step.dither + 65536u * part / parts) & 0xFFFFu;
 }
 
 // Returns the temperature of a heat content. It stays at the melting point while the latent heat is paid.

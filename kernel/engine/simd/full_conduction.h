@@ -43,13 +43,11 @@ class FullConduction {
     if (__builtin_popcountll(work) == words && all_matter(begin, (most + 1) * words) &&
         all_matter(begin + plane, most * words))
       return most;
-    const std::size_t w = static_cast<std::size_t>(__builtin_ctzll(work));
+    const std::size_t w = __builtin_ctzll(work);
     const int run = __builtin_popcountll(work);
     int rows = 0;
-    for (std::size_t at = begin + w; rows < most; ++rows, at += static_cast<std::size_t>(words))
-      if (!all_matter(at, run) || !all_matter(at + static_cast<std::size_t>(words), run) ||
-          !all_matter(at + plane, run))
-        break;
+    for (std::size_t at = begin + w; rows < most; ++rows, at += words)
+      if (!all_matter(at, run) || !all_matter(at + words, run) || !all_matter(at + plane, run)) break;
     return rows;
   }
 
@@ -123,7 +121,7 @@ class FullConduction {
     const std::size_t begin = v_.cell(w, y, 0), stride = v_.row;
     std::uint16_t *here = heat_ + begin, *front_flux = front_ + begin;
     const std::uint16_t *front = above_ + begin, *amount = amount_ + begin;
-    const std::size_t ahead = static_cast<std::size_t>(rows) * stride;
+    const std::size_t ahead = rows * stride;
     V any = L::zero(), other = L::zero(), hottest = L::zero();
     V own[L::kParts], up_flux[L::kParts], gains[kMostRows][L::kParts];
     for (int part = 0; part < L::kParts; ++part) {

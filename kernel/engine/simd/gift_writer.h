@@ -68,9 +68,8 @@ class GiftWriter {
       }
       warm = L::min(flow, warm);
       if (law_.reading == rule::EnergyReading::printed)
-        warm = L::high(warm,
-                       contact_alpha<Arch>(view, law_, y == 0, view.word(static_cast<int>(lane / 64), y, z_),
-                                           static_cast<int>(lane % 64 / L::kCount)));
+        warm = L::high(warm, contact_alpha<Arch>(view, law_, y == 0, view.word(lane / 64, y, z_),
+                                                 static_cast<int>(lane % 64 / L::kCount)));
       L::store(gifts_.flow[d] + at, flow);
       L::store(gifts_.energy[d] + at, warm);
     }

@@ -76,7 +76,7 @@ class GiverItems {
     if (kSupport) givers &= walls_[w - (view.words + 2)] | below_[w];
     const std::uint64_t walls = openness.beside_walls(w, walls_);
     for (int twin = 0; twin < L::kTwins; ++twin) {
-      const auto lane = static_cast<std::uint32_t>(64 * w + twin * kCells);
+      const std::uint32_t lane = 64 * w + twin * kCells;
       items_[count] = {at_ + lane, row_, lane, static_cast<Twin>(walls >> (twin * kCells)) != 0,
                        static_cast<Twin>(givers >> (twin * kCells))};
       count += items_[count].givers != 0;

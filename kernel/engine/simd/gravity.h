@@ -201,7 +201,7 @@ class Gravity {
   }
 
   [[gnu::always_inline]] void flush() {
-    books_.energy.capped += static_cast<std::int64_t>(capped_.total());
+    books_.energy.capped += capped_.total();
     capped_ = {};
     if constexpr (kFeatures.guided) {
       books_.energy.accelerated +=

@@ -108,7 +108,7 @@ class GainBooks {
 
  private:
   [[gnu::always_inline]] void flush() {
-    total_ += static_cast<std::int64_t>(high_.total() * 65536 + low_.total());
+    total_ += high_.total() * 65536 + low_.total();
     low_ = high_ = {};
   }
 

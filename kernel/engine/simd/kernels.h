@@ -30,8 +30,7 @@ struct View {
   std::uint64_t last_word = 0;     // bits of a row's last word that are cells
 
   [[gnu::always_inline]] std::size_t cell(int w, int y, int z) const {
-    return static_cast<std::size_t>(z) * slice + static_cast<std::size_t>(y) * row +
-           64 * static_cast<std::size_t>(w);
+    return z * slice + y * row + 64 * static_cast<std::size_t>(w);
   }
   [[gnu::always_inline]] int tile_rows() const { return ((ny - 1) >> tile_shift) + 1; }
   [[gnu::always_inline]] int tile_begin(int r) const { return r << tile_shift; }
@@ -40,9 +39,7 @@ struct View {
     return end < ny ? end : ny;
   }
   [[gnu::always_inline]] std::size_t word(int w, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(words) +
-           static_cast<std::size_t>(w);
+    return (static_cast<std::size_t>(z) * ny + y) * words + w;
   }
   // Returns the cells that are solid, inert or beyond the grid: w from -1 to words, y from -1 to ny, z from
   // -1 to nz.
@@ -89,9 +86,9 @@ struct Gifts {
   std::uint16_t* energy[8] = {};    // [row][x]
   std::uint16_t* heat = nullptr;    // [row][x]: heat of the giver, xor 0x8000
 
-  [[gnu::always_inline]] std::size_t row(int y) const { return static_cast<std::size_t>(y - first_row); }
+  [[gnu::always_inline]] std::size_t row(int y) const { return y - first_row; }
   [[gnu::always_inline]] std::size_t word(const View& view, int w, std::size_t row) const {
-    return row * static_cast<std::size_t>(view.words + 2) + 1 + static_cast<std::size_t>(w);
+    return row * (view.words + 2) + 1 + w;
   }
   [[gnu::always_inline]] TileRow& tiles(const View& view, int r) const {
     return giving_tiles[r - (first_row >> view.tile_shift)];
@@ -146,8 +143,7 @@ struct Currents {
 // calls.
 inline constexpr std::size_t kSettleGroup = 4, kSettleRecord = 1216;
 [[gnu::always_inline]] inline constexpr std::size_t settle_scratch_bytes(int ny) {
-  return kSettleGroup * static_cast<std::size_t>(ny) * kSettleRecord +
-         (kSettleGroup * static_cast<std::size_t>(ny) * sizeof(std::uint64_t) + 63) / 64 * 64;
+  return kSettleGroup * ny * kSettleRecord + (kSettleGroup * ny * sizeof(std::uint64_t) + 63) / 64 * 64;
 }
 
 // Holds what cells take from isothermal walls in a pass of conduction. `find` writes it, and `add` reads it.

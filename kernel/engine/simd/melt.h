@@ -77,8 +77,8 @@ class Melt {
 
   [[gnu::always_inline]] void flush() {
     if constexpr (kPaper) {
-      books_.energy.melted += static_cast<std::int64_t>(melted_.total());
-      books_.energy.reheated += static_cast<std::int64_t>(reheated_.total());
+      books_.energy.melted += melted_.total();
+      books_.energy.reheated += reheated_.total();
       melted_ = reheated_ = {};
     }
   }

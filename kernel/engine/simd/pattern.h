@@ -39,9 +39,7 @@ class Pattern {
         receivers_(view, step.parameters->flow.paper, z, gifts),
         writer_(view, step, z, gifts),
         row_blocks_((static_cast<std::uint32_t>(view.nx) + 7) / 8),
-        first_block_((static_cast<std::uint32_t>(z) * static_cast<std::uint32_t>(view.ny) +
-                      static_cast<std::uint32_t>(gifts.first_row)) *
-                     row_blocks_) {}
+        first_block_((static_cast<std::uint32_t>(z) * view.ny + gifts.first_row) * row_blocks_) {}
 
   // Returns the tiles where some cell may give.
   [[gnu::always_inline]] TileRow run(int r, TileRow tiles) {
@@ -57,7 +55,7 @@ class Pattern {
   // are, because nothing reads them.)
   [[gnu::always_inline]] void clear(int r) {
     if (gifts_.tiles(v_, r) == 0) return;
-    const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = static_cast<std::size_t>(gifts_.rows);
+    const std::size_t first = gifts_.row(v_.tile_begin(r)), rows = gifts_.rows;
     const std::size_t tile = std::size_t{1} << v_.tile_shift, end = first + tile < rows ? first + tile : rows;
     for (std::size_t row = first; row < end; ++row) {
       for (TileRow old = gifts_.giving[row]; old != 0; old &= old - 1) {

@@ -72,7 +72,7 @@ class RunData {
     const int begin = part * L::kCount, end = begin + L::kCount;
     L::store(counts + begin, L::keep(L::from_bits(runs.columns, part), L::set(1)));
     for (int i = begin; i < end; ++i) {
-      const int excess = static_cast<int>(std::uint32_t{runs.excess_high[i]} << 16 | runs.excess_low[i]);
+      const int excess = std::uint32_t{runs.excess_high[i]} << 16 | runs.excess_low[i];
       const int cells = runs.last[i] - runs.first[i] + 1;
       // Lanes that are not asked for get a harmless run.
       mass[i] = counts[i] != 0 ? excess + 4096 * cells : 4096;
@@ -152,7 +152,7 @@ class RunData {
                                    const EndedRuns& runs, const Lanes16& mean, SettledRuns& now,
                                    Limits& limits) const {
     const int end = begin + L::kCount;
-    const int stiffness = flow_.viscous.stiffness, yield = static_cast<int>(flow_.viscous.yield);
+    const int stiffness = flow_.viscous.stiffness, yield = flow_.viscous.yield;
     alignas(64) Lanes32 mobility;
     for (int i = begin; i < end; ++i) {
       const int head = 1024 + 512 * runs.first[i] + ((runs.bed[i] - 2048) >> 3) + (mass[i] >> 3) +

@@ -275,7 +275,7 @@ class Settle {
                                                TileRow& deep, bool& differs) {
     const SettledRuns& settled = settled_[g];
     const int lane = part * L::kCount;
-    const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(lane);
+    const std::size_t at = v_.cell(w, y, z_) + lane;
     const V height = L::set(y + 1), pivot = L::load(settled.pivot + lane);
     const V higher =
         L::select(L::equal(height, pivot), L::load(settled.at + lane), L::load(settled.above + lane));

@@ -88,7 +88,7 @@ class Sources {
           const std::uint64_t bit = std::uint64_t{1} << (x & 63);
           const std::size_t mask = v_.word(x >> 6, y, z);
           if (square(x, region.at.x) > left || ((v_.solid[mask] | v_.inert[mask]) & bit) != 0) continue;
-          const std::size_t slot = v_.cell(0, y, z) + static_cast<std::size_t>(x);
+          const std::size_t slot = v_.cell(0, y, z) + x;
           if (act(slot, v_.liquid[mask], bit)) *changed |= TileRow{1} << (x >> 6);
         }
       }

@@ -47,7 +47,7 @@ class Carry {
   [[gnu::always_inline]] std::uint64_t vectors(int w, int y, int part, bool& differs) {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const std::ptrdiff_t at = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
-    const auto cell = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
+    const auto cell = v_.cell(0, y, z_) + lane;
     const V gains[8] = {L::zero() - L::load(own_.flow[0] + at), L::load_any(own_.flow[0] + at - 1),
                         L::zero() - L::load(own_.flow[1] + at), L::load(below_.flow[1] + at),
                         L::zero() - L::load(own_.flow[2] + at), L::load_any(below_.flow[2] + at - 1),

@@ -78,7 +78,7 @@ class ExchangePairs {
   // Computes R of the axes in row y. D(y) reverses the order of the bits of y.
   [[gnu::always_inline]] void set_dither(int y) {
     dithered_ = y;
-    auto own = static_cast<std::uint32_t>(y);
+    std::uint32_t own = y;
     own = (own & 0x5555) << 1 | (own >> 1 & 0x5555);
     own = (own & 0x3333) << 2 | (own >> 2 & 0x3333);
     own = (own & 0x0F0F) << 4 | (own >> 4 & 0x0F0F);
@@ -86,8 +86,8 @@ class ExchangePairs {
     for (int axis = 0; axis < 4; ++axis) {
       const std::uint32_t layer = (step_.pair_dither[axis] + own) & 0xFFFF;
       const std::uint32_t offset = (layer + step_.turn[axis]) / step_.substeps << (axis < 2 ? 2 : 4);
-      whole_[axis] = static_cast<int>(offset >> 16);
-      rest_[axis] = 0xFFFF - static_cast<int>(offset & 0xFFFF);
+      whole_[axis] = offset >> 16;
+      rest_[axis] = 0xFFFF - (offset & 0xFFFF);
     }
   }
 
@@ -133,7 +133,7 @@ class ExchangePairs {
   [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
                                       bool& flows, bool& may_flow) {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
-    const auto at = static_cast<std::ptrdiff_t>(v_.cell(0, y, z_)) + lane;
+    const auto at = v_.cell(0, y, z_) + lane;
     const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
     const Cell own{L::load(r_.head + at),     L::load(v_.amount + at), L::load(r_.dead + at),
                    L::load(r_.mobility + at), L::load(r_.fine + at),   L::load(r_.limit + at),
@@ -254,7 +254,7 @@ class ExchangePairs {
 
   [[gnu::always_inline]] void clear(int w, int y, int part) {
     for (int axis = 0; axis < 4; ++axis)
-      L::store(c_.flow[axis] + static_cast<std::size_t>(y) * v_.row + (64 * w + part * L::kCount), L::zero());
+      L::store(c_.flow[axis] + y * v_.row + (64 * w + part * L::kCount), L::zero());
   }
 
   // Keeps the heats of all cells in a pair of these words, because the phase goes on in place.
@@ -263,7 +263,7 @@ class ExchangePairs {
     if (v_.words < 64) words &= (TileRow{1} << v_.words) - 1;
     for (; words != 0; words &= words - 1) {
       const std::size_t lane = 64 * static_cast<std::size_t>(__builtin_ctzll(words));
-      const std::size_t to = static_cast<std::size_t>(y) * v_.row + lane;
+      const std::size_t to = y * v_.row + lane;
       for (int next = 0; next < 2 && z_ + next < v_.nz; ++next) {
         const std::uint16_t* from = v_.heat + v_.cell(0, y, z_ + next) + lane;
         for (int part = 0; part < L::kParts; ++part)

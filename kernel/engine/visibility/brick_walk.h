@@ -103,15 +103,12 @@ class BrickWalk {
       }
       break;
     } while ((packed & kGuards) == kInside);
-    for (std::size_t a = 0; a < 3; ++a)
-      cell_[a] = first[a] + static_cast<int>(packed >> (5 * a) & 31) - state::kBrickSide;
+    for (std::size_t a = 0; a < 3; ++a) cell_[a] = first[a] + (packed >> (5 * a) & 31) - state::kBrickSide;
     return end;
   }
 
   // Returns a bit for each axis along which the ray goes up.
-  std::size_t octant() const {
-    return static_cast<std::size_t>((way_[0] > 0) | (way_[1] > 0) << 1 | (way_[2] > 0) << 2);
-  }
+  std::size_t octant() const { return (way_[0] > 0) | (way_[1] > 0) << 1 | (way_[2] > 0) << 2; }
 
   // Moves to the first cell beyond the cube of `side` bricks that begins with this one, on the way. It
   // returns false when the segment ends first.

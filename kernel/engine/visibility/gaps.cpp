@@ -26,7 +26,7 @@ void Gaps::update(const Opaque& opaque, const Opaque::News& news) {
 void Gaps::find(const Opaque& opaque, std::size_t octant) {
   const state::Grid& g = opaque.bricks();
   std::vector<std::uint8_t>& sides = sides_[octant];
-  const auto width = static_cast<std::size_t>(g.x);
+  const std::size_t width = g.x;
   const std::vector<std::uint8_t> beyond(width, kEndless);
   std::vector<std::uint8_t> least(width);
   const auto way = [&](int axis) { return (octant >> axis & 1) != 0 ? 1 : -1; };

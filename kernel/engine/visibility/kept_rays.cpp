@@ -49,7 +49,7 @@ class KeptRays::Batch {
     std::array<Fate, kBatch> found;
     caster_.cast(opaque_, rays_, {found.data(), rays_.size()});
     for (std::size_t i = 0; i < rays_.size(); ++i) fates_[places_[i]] = found[i];
-    cast_ += static_cast<std::int64_t>(rays_.size());
+    cast_ += rays_.size();
     rays_.clear();
     places_.clear();
   }
@@ -86,8 +86,7 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
     for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.kind, source.now);
-    workers_.run(static_cast<int>(bands_.size()),
-                 [&](int i) { update(bands_[static_cast<std::size_t>(i)], surfaces, result); });
+    workers_.run(static_cast<int>(bands_.size()), [&](int i) { update(bands_[i], surfaces, result); });
     written_ = result.data();
   }
   std::int64_t cuts = 0;
@@ -143,7 +142,7 @@ void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
   }
   band.cuts = write(band, result);
   const state::Grid& g = opaque_.grid();
-  const auto cells = static_cast<std::size_t>(band.y1 - band.y0) * static_cast<std::size_t>(g.x);
+  const auto cells = static_cast<std::size_t>(band.y1 - band.y0) * g.x;
   band.kept = bytes <= kMostKept * cells + (std::size_t{16} << 10);
   if (!band.kept) band.sources.assign(sources_.size(), {});
 }
@@ -229,7 +228,7 @@ LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells
         std::uint8_t looking = 0;
         for (std::size_t f = 0; f < faces.size(); ++f)
           looking = static_cast<std::uint8_t>(looking | (faces[f] >> b & 1) << f);
-        now.look(row_place(y) | static_cast<std::uint32_t>(64 * static_cast<int>(w) + b), looking);
+        now.look(row_place(y) | (64 * static_cast<int>(w) + b), looking);
       }
     }
     now.drop_before(row_place(y + 1));

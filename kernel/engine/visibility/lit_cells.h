@@ -56,9 +56,8 @@ class RenewedLitCells {
     std::size_t from = fate_;
     for (int f = 0; f < rule::kFaces; ++f) {
       const bool looked = was && (next().faces >> f & 1) != 0, looks = (faces >> f & 1) != 0;
-      for (int n = 0; looks && n < each_; ++n)
-        now_.fates.push_back(looked ? old_.fates[from + static_cast<std::size_t>(n)] : kDark);
-      from += static_cast<std::size_t>(looked ? each_ : 0);
+      for (int n = 0; looks && n < each_; ++n) now_.fates.push_back(looked ? old_.fates[from + n] : kDark);
+      from += (looked ? each_ : 0);
     }
     if (was) pass();
     begin();

@@ -21,7 +21,7 @@ void Opaque::resize(const state::Grid& grid) {
   bits_ = state::Pages(bricks_.cells() * kSide * kSide);
   contents_.assign(bricks_.cells(), kEmpty);
   column_words_ = (static_cast<std::size_t>(grid.y) + 63) / 64;
-  changed_.assign(column_words_ * static_cast<std::size_t>(grid.z), 0);
+  changed_.assign(column_words_ * grid.z, 0);
 }
 
 Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
@@ -30,9 +30,8 @@ Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
     resize(volume.grid);
     all.appeared = true;
   }
-  std::vector<News> news(static_cast<std::size_t>(bricks_.z));
-  workers.run(bricks_.z,
-              [&](int layer) { news[static_cast<std::size_t>(layer)] = take_layer(volume, layer); });
+  std::vector<News> news(bricks_.z);
+  workers.run(bricks_.z, [&](int layer) { news[layer] = take_layer(volume, layer); });
   for (const News& more : news) {
     all.appeared |= more.appeared;
     all.vanished |= more.vanished;
@@ -44,9 +43,9 @@ Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
 
 Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
   News news;
-  const std::size_t words = plane_.row_words(), slice = words * static_cast<std::size_t>(grid_.y);
+  const std::size_t words = plane_.row_words(), slice = words * grid_.y;
   for (int z = kSide * layer; z < std::min(grid_.z, kSide * (layer + 1)); ++z) {
-    std::fill_n(changed_.begin() + static_cast<std::ptrdiff_t>(change_word(0, z)), column_words_, 0);
+    std::fill_n(changed_.begin() + change_word(0, z), column_words_, 0);
     const std::uint64_t *const now_solid = volume.solid.row(0, z).data(), *const now_inert =
                                                                               volume.inert.row(0, z).data();
     std::uint64_t *const solid = solid_.row(0, z).data(), *const opaque = plane_.row(0, z).data();
@@ -81,7 +80,7 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
 
 void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z) {
   const std::size_t first = bricks_.index(kWordBricks * static_cast<int>(w), y / kSide, z / kSide);
-  const std::size_t row = static_cast<std::size_t>(z % kSide * kSide + y % kSide);
+  const std::size_t row = z % kSide * kSide + y % kSide;
   for (std::size_t k = 0; k < kWordBricks; ++k) {
     if (((was ^ is) >> (kSide * k) & 0xff) == 0) continue;
     bytes()[((first + k) << 6) + row] = static_cast<std::uint8_t>(is >> (kSide * k));
@@ -91,7 +90,7 @@ void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, in
 
 // Looks into the bricks that have changed. It returns how many are empty now.
 int Opaque::look_into(int layer) {
-  const std::size_t each = bricks_.index(0, 0, 1), begin = each * static_cast<std::size_t>(layer);
+  const std::size_t each = bricks_.index(0, 0, 1), begin = each * layer;
   int emptied = 0;
   for (std::size_t brick = begin; brick < begin + each; ++brick) {
     if (contents_[brick] != kUnknown) continue;

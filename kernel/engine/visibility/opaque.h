@@ -48,7 +48,7 @@ class Opaque {
   bool empty(std::size_t brick) const { return contents_[brick] == kEmpty; }
   bool full(std::size_t brick) const { return contents_[brick] == kFull; }
   static std::size_t place(std::size_t brick, const Cell& cell) {
-    return brick << 9 | static_cast<std::size_t>((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
+    return brick << 9 | ((cell[2] & 7) << 6 | (cell[1] & 7) << 3 | (cell[0] & 7));
   }
   bool holds(std::size_t place) const { return (bytes()[place >> 3] >> (place & 7) & 1) != 0; }
   // Returns the cells of a brick, a byte for each row: rows by y, then by z.
@@ -64,7 +64,7 @@ class Opaque {
   void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
   int look_into(int layer);
   std::size_t change_word(int y, int z) const {
-    return static_cast<std::size_t>(z) * column_words_ + (static_cast<std::size_t>(y) >> 6);
+    return z * column_words_ + (static_cast<std::size_t>(y) >> 6);
   }
   std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(bits_.data()); }
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(bits_.data()); }

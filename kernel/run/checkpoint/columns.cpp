@@ -19,7 +19,7 @@ std::size_t row_bytes(const state::BitPlane& plane, state::Grid) {
 }
 template <class T>
 std::size_t row_bytes(const state::Field<T>&, state::Grid grid) {
-  return static_cast<std::size_t>(grid.x) * sizeof(T);
+  return grid.x * sizeof(T);
 }
 template <class Column>
 auto* row_of(Column& column, int y, int z) {
@@ -31,7 +31,7 @@ auto* row_of(Column& column, int y, int z) {
 }
 
 int slices_of_a_slab(std::size_t row, state::Grid grid) {
-  const std::size_t slice = row * static_cast<std::size_t>(grid.y);
+  const std::size_t slice = row * grid.y;
   return static_cast<int>(std::clamp<std::size_t>(kSlab / slice, 1, static_cast<std::size_t>(grid.z)));
 }
 
@@ -53,7 +53,7 @@ std::vector<Slab> slabs_of(std::size_t row, state::Grid grid) {
 template <class Column>
 Packed pack(const Column& column, state::Grid grid, const Slab& slab) {
   const std::size_t row = row_bytes(column, grid);
-  const std::size_t bytes = row * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(slab.count);
+  const std::size_t bytes = row * grid.y * slab.count;
   const auto empty = [row](const auto* from) {
     const auto* at = reinterpret_cast<const char*>(from);
     return at[0] == 0 && std::memcmp(at, at + 1, row - 1) == 0;
@@ -76,12 +76,12 @@ template <class Column>
 void put(BlockWriter& writer, cpu::Workers& workers, std::string_view kind, const Column& column,
          state::Grid grid) {
   const std::vector<Slab> slabs = slabs_of(row_bytes(column, grid), grid);
-  const auto at_once = static_cast<std::size_t>(2 * workers.threads());
+  const std::size_t at_once = 2 * workers.threads();
   std::vector<Packed> blocks(at_once);
   for (std::size_t begin = 0; begin < slabs.size(); begin += at_once) {
     const std::size_t count = std::min(at_once, slabs.size() - begin);
     workers.run(static_cast<int>(count), [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
+      const std::size_t k = i;
       blocks[k] = pack(column, grid, slabs[begin + k]);
     });
     for (std::size_t k = 0; k < count; ++k) writer.put(slabs[begin + k].name(kind), blocks[k]);
@@ -94,7 +94,7 @@ Column take(BlockReader& reader, std::string_view kind, state::Grid grid) {
   const std::size_t row = row_bytes(column, grid);
   Bytes raw;
   for (const Slab& slab : slabs_of(row, grid)) {
-    raw.resize(row * static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(slab.count));
+    raw.resize(row * grid.y * slab.count);
     if (reader.next_is_empty(slab.name(kind), raw)) continue;
     const std::byte* from = raw.data();
     for (int z = slab.first; z < slab.first + slab.count; ++z)

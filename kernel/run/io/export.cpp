@@ -30,7 +30,7 @@ void append_row(std::string& rows, const state::BitPlane& plane, int y, int z, s
   const auto words = plane.row(y, z);
   for (std::size_t w = 0; w < words.size(); ++w)
     for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
-      rows[first + 64 * w + static_cast<std::size_t>(std::countr_zero(left))] = 1;
+      rows[first + 64 * w + std::countr_zero(left)] = 1;
 }
 template <class T>
 void append_row(std::string& rows, const state::Field<T>& field, int y, int z, std::size_t width) {
@@ -39,7 +39,7 @@ void append_row(std::string& rows, const state::Field<T>& field, int y, int z, s
 
 // Returns the columns of a volume. Masks have a byte for each cell.
 std::vector<Column> columns_of(const state::Volume& volume) {
-  const auto width = static_cast<std::size_t>(volume.grid.x);
+  const std::size_t width = volume.grid.x;
   std::vector<Column> columns;
   state::for_each_field([&](const auto& row) {
     const auto& cells = volume.*row.column;

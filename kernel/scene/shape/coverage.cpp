@@ -41,7 +41,7 @@ class Sampler {
     const int z_end = std::min(z + size, window.z + window.size.z);
     for (int cz = z; cz < z_end; ++cz)
       for (int cy = y; cy < y_end; ++cy) {
-        auto row = coverage_.samples.begin() + static_cast<std::ptrdiff_t>(window.index(x, cy, cz));
+        auto row = coverage_.samples.begin() + window.index(x, cy, cz);
         std::fill(row, row + (x_end - x), static_cast<std::uint8_t>(kSamplesPerCell));
       }
   }

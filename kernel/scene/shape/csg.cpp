@@ -68,7 +68,7 @@ class PartTree {
       return size.x >= size.y && size.x >= size.z ? sum.x : size.y >= size.z ? sum.y : sum.z;
     };
     const std::size_t half = (first + end) / 2;
-    const auto at = [&](std::size_t i) { return parts_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [&](std::size_t i) { return parts_.begin() + i; };
     std::nth_element(at(first), at(half), at(end),
                      [&](const Part& a, const Part& b) { return middle_of(a) < middle_of(b); });
     build(first, half);

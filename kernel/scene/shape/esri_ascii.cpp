@@ -53,8 +53,7 @@ class EsriParser {
     header();
     if (elevation_.columns == 0 || elevation_.rows == 0)
       fail("ncols and nrows must come before the elevations");
-    const std::size_t wanted =
-        static_cast<std::size_t>(elevation_.columns) * static_cast<std::size_t>(elevation_.rows);
+    const std::size_t wanted = static_cast<std::size_t>(elevation_.columns) * elevation_.rows;
     // `line_` already holds the first line of elevations.
     do {
       for (std::string_view word = next_word(); !word.empty(); word = next_word()) {

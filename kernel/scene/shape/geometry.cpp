@@ -12,7 +12,7 @@ std::array<double, 2> cos_sin(double degrees) {
   if (quarter == std::floor(quarter)) {
     const int turn = static_cast<int>(std::fmod(std::fmod(quarter, 4) + 4, 4));
     constexpr std::array<std::array<double, 2>, 4> exact{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    return exact[static_cast<std::size_t>(turn)];
+    return exact[turn];
   }
   const double radians = degrees * std::numbers::pi / 180;
   return {std::cos(radians), std::sin(radians)};

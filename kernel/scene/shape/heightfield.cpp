@@ -18,7 +18,7 @@ std::array<double, 4> spline_weights(double t) {
 
 double Elevation::at(int column, int row) const {
   const int c = std::clamp(column, 0, columns - 1), r = std::clamp(row, 0, rows - 1);
-  return value[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+  return value[static_cast<std::size_t>(r) * columns + c];
 }
 
 void smooth(Elevation& elevation, int passes) {
@@ -29,8 +29,8 @@ void smooth(Elevation& elevation, int passes) {
         const auto row = [&](int k) {
           return before.at(c - 1, k) + 2 * before.at(c, k) + before.at(c + 1, k);
         };
-        elevation.value[static_cast<std::size_t>(r) * static_cast<std::size_t>(before.columns) +
-                        static_cast<std::size_t>(c)] = (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
+        elevation.value[static_cast<std::size_t>(r) * before.columns + c] =
+            (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
       }
   }
 }
@@ -38,7 +38,7 @@ void smooth(Elevation& elevation, int passes) {
 std::vector<double> resample(const Elevation& elevation, int nx, int nz) {
   const double lowest = *std::min_element(elevation.value.begin(), elevation.value.end());
   std::vector<double> result;
-  result.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(nz));
+  result.reserve(static_cast<std::size_t>(nx) * nz);
   for (int z = 0; z < nz; ++z) {
     const double v = (z + 0.5) / nz * elevation.rows - 0.5;
     const int row = static_cast<int>(std::floor(v));
@@ -50,8 +50,7 @@ std::vector<double> resample(const Elevation& elevation, int nx, int nz) {
       double sum = 0;
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
-          sum += row_weights[static_cast<std::size_t>(j)] * column_weights[static_cast<std::size_t>(i)] *
-                 elevation.at(column - 1 + i, row - 1 + j);
+          sum += row_weights[j] * column_weights[i] * elevation.at(column - 1 + i, row - 1 + j);
       result.push_back(sum - lowest);
     }
   }

@@ -107,7 +107,7 @@ class ObjReader {
   }
 
   void face(std::string_view line) {
-    const auto known = static_cast<std::int64_t>(mesh_.vertices.size());
+    const std::int64_t known = mesh_.vertices.size();
     int corners = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
       const std::optional<std::int64_t> index = number_in<std::int64_t>(word.substr(0, word.find('/')));

@@ -16,7 +16,7 @@ struct Canonical {
   bool forward = true;
 
   explicit Canonical(std::span<const std::uint32_t> face) : corners(face) {
-    first = static_cast<std::size_t>(std::min_element(face.begin(), face.end()) - face.begin());
+    first = std::min_element(face.begin(), face.end()) - face.begin();
     const std::size_t n = face.size();
     forward = face[(first + 1) % n] <= face[(first + n - 1) % n];
   }
@@ -176,7 +176,7 @@ CleanMesh clean(const Mesh& mesh) {
   const std::vector<std::uint32_t> number = weld(mesh, result.mesh.vertices);
   std::vector<bool> used(mesh.vertices.size());
   for (const std::uint32_t corner : mesh.corners) used[corner] = true;
-  result.unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  result.unused = std::count(used.begin(), used.end(), false);
 
   std::vector<std::uint32_t> ring;
   for (std::size_t f = 0; f < mesh.faces(); ++f) {

@@ -22,7 +22,7 @@ void add_saturated(T& sum, int what) {
 
 std::int16_t short_of(int sum) { return static_cast<std::int16_t>(sum); }
 
-std::size_t at(int axis) { return static_cast<std::size_t>(axis); }
+std::size_t at(int axis) { return axis; }
 
 // Returns what the two rays from a place along an axis tell at the low end. With w crossings towards the low
 // end and the other ones of all `total` towards the high end, it is 2 w - total. For parities it is the count
@@ -87,12 +87,12 @@ MeshLayers::MeshLayers(const Surface& surface, Inside inside, Coverage& coverage
   s_ = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
   p_ = (s_ + 1) % 3;
   q_ = (s_ + 2) % 3;
-  width_ = static_cast<std::size_t>(count_[at(p_)]);
-  height_ = static_cast<std::size_t>(count_[at(q_)]);
+  width_ = count_[at(p_)];
+  height_ = count_[at(q_)];
   thickness_ = std::max(1, count_[at(s_)] / kSlabs);
   static_assert(kBand % kSamplesPerAxis == 0);
   band_ = std::min(kBand, std::max(count_[at(q_)], kSamplesPerAxis));
-  const std::size_t in_band = static_cast<std::size_t>(band_);
+  const std::size_t in_band = band_;
   along_p_.resize(width_ * in_band);
   chunks_ = (width_ + kChunk - 1) / kChunk;
   touched_.resize(in_band * chunks_);
@@ -101,9 +101,9 @@ MeshLayers::MeshLayers(const Surface& surface, Inside inside, Coverage& coverage
   inside_row_.resize(width_);
   if (surface.closed) return;
   along_q_.resize(width_ * in_band);
-  along_s_.resize(width_ * in_band * static_cast<std::size_t>(thickness_));
+  along_s_.resize(width_ * in_band * thickness_);
   told_s_.resize(width_ * height_);
-  told_q_.resize(width_ * static_cast<std::size_t>(thickness_));
+  told_q_.resize(width_ * thickness_);
   told_p_.resize(width_);
 }
 
@@ -220,8 +220,7 @@ void MeshLayers::cross_q(const Triangle& triangle, int layer, Range band) {
   for (int p = rays.first; p < rays.end; ++p, walk.next()) {
     const int to = sample_at(q_, walk.depth());
     if (to < band.first || to >= band.end) continue;
-    add_saturated(along_q_[static_cast<std::size_t>(to - band.first) * width_ + static_cast<std::size_t>(p)],
-                  -crossings.sign());
+    add_saturated(along_q_[(to - band.first) * width_ + p], -crossings.sign());
   }
 }
 
@@ -234,7 +233,7 @@ void MeshLayers::total_in_layers(const Triangle& triangle, Slab slab) {
   for (int layer = layers.first; layer < layers.end; ++layer) {
     const auto [first, last] = crossings.range_u(place(s_, layer));
     const Range rays = samples(p_, first, last);
-    std::int16_t* totals = told_q_.data() + static_cast<std::size_t>(layer - slab.first) * width_;
+    std::int16_t* totals = told_q_.data() + (layer - slab.first) * width_;
     for (int p = rays.first; p < rays.end; ++p) add_saturated(totals[p], -crossings.sign());
   }
 }
@@ -250,7 +249,7 @@ void MeshLayers::total_through_layers() {
     for (int q = rows.first; q < rows.end; ++q) {
       const auto [first, last] = crossings.range_u(place(q_, q));
       const Range rays = samples(p_, first, last);
-      std::int16_t* row = told_s_.data() + static_cast<std::size_t>(q) * width_;
+      std::int16_t* row = told_s_.data() + q * width_;
       for (int p = rays.first; p < rays.end; ++p) add_saturated(row[p], -crossings.sign());
     }
   }
@@ -269,8 +268,8 @@ void MeshLayers::step_through_layers(const Triangle& triangle, Slab slab, Range 
     for (int p = rays.first; p < rays.end; ++p, walk.next()) {
       const int to = sample_at(s_, walk.depth());
       if (to < slab.first || to >= slab.end) continue;
-      const auto row = static_cast<std::size_t>((to - slab.first) * band_ + q - band.first);
-      add_saturated(along_s_[row * width_ + static_cast<std::size_t>(p)], -crossings.sign());
+      const std::size_t row = (to - slab.first) * band_ + q - band.first;
+      add_saturated(along_s_[row * width_ + p], -crossings.sign());
     }
   }
 }
@@ -299,7 +298,7 @@ MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, 
 
 void MeshLayers::add_row(int q, int row, int layer) {
   if (surface_.closed)
-    add_closed_row(q, static_cast<std::size_t>(row));
+    add_closed_row(q, row);
   else if (inside_ == Inside::winding)
     add_open_row<Inside::winding>(q, static_cast<std::size_t>(row), layer);
   else
@@ -360,10 +359,9 @@ void MeshLayers::add_open_row(int q, std::size_t row, int layer) {
 // Stores a complete band of a layer of cells.
 void MeshLayers::store(int layer, Range band) {
   const state::Grid size = coverage_.window.size;
-  const std::array<std::size_t, 3> stride{
-      1, static_cast<std::size_t>(size.x),
-      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
-  const std::size_t first = static_cast<std::size_t>(layer / kSamplesPerAxis) * stride[at(s_)];
+  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(size.x),
+                                          static_cast<std::size_t>(size.x) * size.y};
+  const std::size_t first = (layer / kSamplesPerAxis) * stride[at(s_)];
   const std::size_t width = width_ / kSamplesPerAxis, end = at(band.end) / kSamplesPerAxis;
   for (std::size_t q = at(band.first) / kSamplesPerAxis; q < end; ++q)
     for (std::size_t p = 0; p < width; ++p)

@@ -32,9 +32,7 @@ class MeshLayers {
     int first, end;
   };
 
-  std::int64_t place(int axis, int sample) const {
-    return low_[static_cast<std::size_t>(axis)] + sample * kSampleSpacing;
-  }
+  std::int64_t place(int axis, int sample) const { return low_[axis] + sample * kSampleSpacing; }
   Range samples(int axis, std::int64_t first, std::int64_t last) const;
   static Range common(Range a, Range b);
   int sample_at(int axis, double depth) const;

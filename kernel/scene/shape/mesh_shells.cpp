@@ -72,7 +72,7 @@ class Shells {
  private:
   static std::int64_t snap(double v) {
     constexpr std::int64_t snaps_per_cell = kMeshUnit / kMeshSnap;
-    return static_cast<std::int64_t>(std::llround(v * static_cast<double>(snaps_per_cell))) * kMeshSnap;
+    return std::llround(v * static_cast<double>(snaps_per_cell)) * kMeshSnap;
   }
 
   // Orients the patches. A patch has faces that are connected where exactly two of them meet. They run
@@ -93,7 +93,7 @@ class Shells {
     }
     for (std::uint32_t f = 0; f < mesh_.faces(); ++f)
       if (2 * turned[shell_[f]] > faces[shell_[f]]) turned_[f] = !turned_[f];
-    flipped_ = static_cast<std::size_t>(std::count(turned_.begin(), turned_.end(), true));
+    flipped_ = std::count(turned_.begin(), turned_.end(), true);
   }
 
   // Joins patches to shells. If more than two faces meet at an edge, patches that are open there close one

@@ -41,7 +41,7 @@ void for_each_cell(const Coverage& coverage, const state::Volume& volume, Visit 
     for (int y = 0; y < window.size.y; ++y) {
       const state::Slot row = volume.at(window.x, window.y + y, window.z + z);
       for (int x = 0; x < window.size.x; ++x, ++i)
-        if (coverage.samples[i] > 0) visit(row + static_cast<std::size_t>(x), coverage.samples[i]);
+        if (coverage.samples[i] > 0) visit(row + x, coverage.samples[i]);
     }
 }
 
@@ -53,7 +53,7 @@ class Voxeliser {
         inert_(grid),
         solid_temperature_(grid),
         inert_wall_(grid),
-        touched_(static_cast<std::size_t>(grid.y) * static_cast<std::size_t>(grid.z)) {}
+        touched_(static_cast<std::size_t>(grid.y) * grid.z) {}
 
   void add(const Entry& entry, const Coverage& coverage) {
     const Window& window = coverage.window;
@@ -77,8 +77,8 @@ class Voxeliser {
       ground[c] = static_cast<int>(std::lround(terrain.height[c]));
 
     for (int z = 0; z < grid.z; ++z) {
-      const std::size_t columns = static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.x);
-      const auto first = ground.begin() + static_cast<std::ptrdiff_t>(columns);
+      const std::size_t columns = static_cast<std::size_t>(z) * grid.x;
+      const auto first = ground.begin() + columns;
       const int highest = *std::max_element(first, first + grid.x);
       for (int y = 0; y < grid.y; ++y) {
         if (y >= highest && !touched_[row_of(y, z)]) continue;
@@ -87,7 +87,7 @@ class Voxeliser {
       for (int x = 0; x < grid.x; ++x) {
         if (first[x] == 0) continue;
         const state::Slot top = volume_.at(x, first[x] - 1, z);
-        const double rise = double{terrain.height[columns + static_cast<std::size_t>(x)]} - first[x];
+        const double rise = double{terrain.height[columns + x]} - first[x];
         volume_.amount[top] = bed(rise, volume_.heat[top] > 0 ? 1 : 0);
       }
     }
@@ -95,10 +95,7 @@ class Voxeliser {
   }
 
  private:
-  std::size_t row_of(int y, int z) const {
-    return static_cast<std::size_t>(z) * static_cast<std::size_t>(volume_.grid.y) +
-           static_cast<std::size_t>(y);
-  }
+  std::size_t row_of(int y, int z) const { return static_cast<std::size_t>(z) * volume_.grid.y + y; }
 
   // Returns the bed offset. It is at least 1 for isothermal walls, since no cell without an amount has heat.
   static rule::Amount bed(double fraction, long least) {

@@ -130,7 +130,7 @@ std::size_t Reader::choice(std::string_view key, const std::vector<std::string>&
   if (at == names.end())
     fail_at(value->place,
             fmt::format("{} = \"{}\" is not one of {}", name(key), value->text, fmt::join(names, ", ")));
-  return static_cast<std::size_t>(at - names.begin());
+  return at - names.begin();
 }
 
 std::filesystem::path Reader::file(std::string_view key) {

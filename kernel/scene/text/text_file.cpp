@@ -74,7 +74,7 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t limit,
     if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (count < 0) fail(std::strerror(errno));
     if (count == 0) return text;
-    text.append(piece.data(), static_cast<std::size_t>(count));
+    text.append(piece.data(), count);
     if (text.size() > limit) fail(fmt::format("larger than {} bytes", limit));
   }
 }

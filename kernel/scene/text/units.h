@@ -32,9 +32,7 @@ inline std::uint32_t to_factor32(double f) { return static_cast<std::uint32_t>(s
 // Is the automaton's unit of power. Scenes have temperature per step times squared cells. Inside it is 1/16
 // temperature unit x (1/16 cell)^2.
 inline constexpr double kPowerUnit = 65536.0 * 16 * 256;
-inline std::uint64_t to_power(double value) {
-  return static_cast<std::uint64_t>(std::llround(value * kPowerUnit));
-}
+inline std::uint64_t to_power(double value) { return std::llround(value * kPowerUnit); }
 inline double from_power(std::uint64_t power) { return static_cast<double>(power) / kPowerUnit; }
 
 inline std::int64_t to_position(double cells) { return std::llround(cells * rule::kPositionUnit); }
