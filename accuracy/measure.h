@@ -1,7 +1,6 @@
 // The functions here take numbers from a volume: columns of liquid, radii, moments, fronts.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 

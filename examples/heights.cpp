@@ -4,7 +4,6 @@
 #include <voxmelt/voxmelt.h>
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <vector>

@@ -1,7 +1,6 @@
 // The example melts a scene and prints the digest of its state. Equal digests mean equal bits.
 //   melt SCENE.toml STEPS
 #include <voxmelt/voxmelt.h>
-#include <cstdint>
 #include <cstdlib>
 #include <ios>
 #include <iostream>

@@ -1,7 +1,6 @@
 // The example draws a scene while it melts, into the files picture_0.png, picture_1.png and so on.
 //   picture SCENE.toml PICTURES STEPS_BETWEEN
 #include <voxmelt/voxmelt.h>
-#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <string>

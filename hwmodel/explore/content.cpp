@@ -1,5 +1,6 @@
 #include "hwmodel/explore/content.h"
 
+#include <cstddef>
 #include <algorithm>
 #include <utility>
 

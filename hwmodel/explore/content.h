@@ -2,7 +2,6 @@
 // run begins.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

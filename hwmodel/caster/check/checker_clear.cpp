@@ -1,6 +1,5 @@
 // Rays through clear matter are compared behind every stage. After nothing passes any more, a ray changes no
 // byte. So the rest of its way is not compared.
-#include <cstddef>
 #include <cstdint>
 
 #include "hwmodel/caster/check/checker.h"

@@ -3,7 +3,6 @@
 // order. Many rays are under way. The level of sample k - 1 is asked for only if it is needed and not known.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <vector>

@@ -1,8 +1,6 @@
 // The normal of matter is computed from 27 levels (docs/picture/definition.md, section 8).
 #pragma once
 
-#include <cstddef>
-
 #include "hwmodel/caster/model/attach_stage.h"
 #include "hwmodel/caster/model/field.h"
 #include "hwmodel/caster/model/no_faults.h"

@@ -3,7 +3,6 @@
 // Then the light is pressed (section 7).
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "hwmodel/caster/model/clear.h"

@@ -2,7 +2,6 @@
 // token's bit is set. A stored token is lost, or the reader looks at the wrong bit.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

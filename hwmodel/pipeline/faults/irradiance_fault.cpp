@@ -1,7 +1,6 @@
 #include "hwmodel/pipeline/faults/irradiance_fault.h"
 
 #include <bit>
-#include <cstddef>
 
 namespace voxmelt::hwmodel {
 

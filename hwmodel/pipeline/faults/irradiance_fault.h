@@ -2,7 +2,6 @@
 // mask of the wrong lanes, or takes a word too few.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

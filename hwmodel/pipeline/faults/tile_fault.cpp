@@ -1,7 +1,6 @@
 #include "hwmodel/pipeline/faults/tile_fault.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
 #include "hwmodel/pipeline/model/volume_port.h"

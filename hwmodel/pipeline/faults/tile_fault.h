@@ -2,7 +2,6 @@
 // it is written or counted although another tile owns it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::hwmodel {

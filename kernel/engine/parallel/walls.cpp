@@ -1,7 +1,6 @@
 #include "kernel/engine/parallel/walls.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::parallel {

@@ -1,7 +1,6 @@
 // Phase `excess` of the viscous law settles every run and gives its cells their head and mobility. (The
 // paper's law moves its excess in the same sweep as gravity.)
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // then convects in liquid. Last come radiation received and exchange with air, cell by cell.
 #include "kernel/automaton/rule/heat.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>

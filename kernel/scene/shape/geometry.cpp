@@ -1,6 +1,5 @@
 #include "kernel/scene/shape/geometry.h"
 
-#include <cstddef>
 #include <numbers>
 
 namespace voxmelt::scene {
