@@ -44,6 +44,29 @@ bool Checkpoints::write(RunRecord record, Film& film, const run::Simulation& sim
   record.frame_steps = film.settle();
   const Clock::time_point begin = Clock::now();
   if (record.frame_steps.size() < frames_due_before(record, simulation.steps_done())) return false;
+  std::error_code error;
+  std::filesystem::create_directories(folder_ / "checkpoints", error);
+  if (error)
+    throw io::OutputError(
+        fmt::format("{}: error: cannot be made: {}", (folder_ / "checkpoints").string(), error.message()),
+        error == std::errc::no_space_on_device);
+  write_to(io::checkpoint_place(folder_, simulation.steps_done()), std::move(record), simulation, seen,
+           seconds);
+  io::keep_two_checkpoints(folder_);
+  last_ = Clock::now();
+  cost_ = last_ - begin;
+  return true;
+}
+
+void Checkpoints::write_last(RunRecord record, Film& film, const run::Simulation& simulation,
+                             const Watch::Seen& seen, const RunSeconds& seconds) {
+  record.frame_steps = film.settle();
+  write_to(folder_ / io::kLastState, std::move(record), simulation, seen, seconds);
+}
+
+void Checkpoints::write_to(const std::filesystem::path& file, RunRecord record,
+                           const run::Simulation& simulation, const Watch::Seen& seen,
+                           const RunSeconds& seconds) {
   const std::filesystem::path frames = folder_ / "frames";
   bool more = false;
   for (std::size_t i = frames_.size(); i < record.frame_steps.size(); ++i, more = true) {
@@ -55,21 +78,9 @@ bool Checkpoints::write(RunRecord record, Film& film, const run::Simulation& sim
   record.frames = frames_;
   record.seen = seen;
   record.seconds = seconds;
-
   checkpoint::Head head = run::head_of(version_number(), text_, scene_, simulation);
   head.command = json_of(record);
-  std::error_code error;
-  std::filesystem::create_directories(folder_ / "checkpoints", error);
-  if (error)
-    throw io::OutputError(
-        fmt::format("{}: error: cannot be made: {}", (folder_ / "checkpoints").string(), error.message()),
-        error == std::errc::no_space_on_device);
-  checkpoint::write(io::checkpoint_place(folder_, simulation.steps_done()), std::move(head),
-                    simulation.volume(), simulation.irradiance(), threads_);
-  io::keep_two_checkpoints(folder_);
-  last_ = Clock::now();
-  cost_ = last_ - begin;
-  return true;
+  checkpoint::write(file, std::move(head), simulation.volume(), simulation.irradiance(), threads_);
 }
 
 }  // namespace voxmelt::app

@@ -39,7 +39,14 @@ class Checkpoints {
   bool write(RunRecord record, Film& film, const run::Simulation& simulation, const Watch::Seen& seen,
              const RunSeconds& seconds);
 
+  // Writes the last state of a complete run, from which more steps can follow. Throws io::OutputError.
+  void write_last(RunRecord record, Film& film, const run::Simulation& simulation, const Watch::Seen& seen,
+                  const RunSeconds& seconds);
+
  private:
+  void write_to(const std::filesystem::path& file, RunRecord record, const run::Simulation& simulation,
+                const Watch::Seen& seen, const RunSeconds& seconds);
+
   using Clock = std::chrono::steady_clock;
   std::filesystem::path folder_;
   const scene::Scene& scene_;

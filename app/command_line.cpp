@@ -80,6 +80,7 @@ template Option Command::option(const std::string&, std::uint32_t&, const std::s
 template Option Command::option(const std::string&, std::uint64_t&, const std::string&) const;
 template Option Command::option(const std::string&, std::string&, const std::string&) const;
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<std::uint32_t>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<std::int64_t>&, const std::string&) const;

@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
+#include "app/resume.h"
 #include "app/run_record.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/run/checkpoint/blocks.h"
@@ -23,13 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the newest checkpoint of an output folder, or the file itself.
+// Returns the newest checkpoint of a run's output, wherever the run has left it, or the file itself.
 fs::path file_of(const fs::path& given) {
   std::error_code ignored;
-  if (!fs::is_directory(given, ignored)) return given;
-  const std::vector<io::CheckpointFile> files = io::checkpoints_in(given);
-  if (files.empty()) throw UsageError(fmt::format("{}: error: there is no checkpoint in it", given.string()));
-  return files.front().file;
+  if (fs::is_regular_file(given, ignored)) return given;
+  if (const std::vector<io::CheckpointFile> files = io::checkpoints_in(given); !files.empty())
+    return files.front().file;
+  const std::vector<fs::path> left = checkpoints_left(given);
+  if (left.empty() && !fs::exists(given, ignored)) return given;  // its reader says so
+  if (left.empty())
+    throw UsageError(fmt::format("{}: error: there is no checkpoint in it, nor beside it", given.string()));
+  return left.front();
 }
 
 const char* now_of(const checkpoint::FileState& file) {

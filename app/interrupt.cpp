@@ -28,7 +28,8 @@ void interrupt(int) {
   if (g_when.compare_exchange_strong(never, Clock::now().time_since_epoch().count())) ::sem_post(&g_came);
 }
 
-constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+// Batch systems send the last two before they kill.
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
 
 // A signal handler may call nothing but write() and _exit().
 void end(std::string_view words) {

@@ -3,7 +3,8 @@
 
 namespace voxmelt::app {
 
-// Handles SIGINT, SIGTERM, SIGHUP and SIGQUIT. Until the first output is begun they end the program at once.
+// Handles SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU. Until the first output is begun they end the
+// program at once.
 void end_at_interrupts();
 void catch_interrupts();  // from now on the program itself asks the functions below
 // Does the same, and ends a program that has not ended two seconds after the signal. Incomplete output is

@@ -24,6 +24,7 @@ void list_implementations() {
 }
 
 void list_scenes() {
+  if (scene_names().empty()) throw UsageError("error: " + no_scenes_text());
   std::set<std::string> seen;
   for (const fs::path& folder : scene_folders()) {
     std::error_code ignored;

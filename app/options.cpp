@@ -25,17 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const fs::path& folder : scene_folders()) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 fs::path find_scene(const std::string& given) {
   const fs::path path(given);
   if (path.has_parent_path() || path.has_extension()) return path;
@@ -44,7 +33,11 @@ fs::path find_scene(const std::string& given) {
     std::error_code ignored;
     if (fs::exists(candidate, ignored)) return candidate;
   }
-  const std::string near = scene::nearest_name(given, scene_names());
+  const std::vector<std::string> names = scene_names();
+  if (names.empty())
+    throw UsageError(
+        fmt::format("error: no scene file and no scene named '{}'; {}", given, no_scenes_text()));
+  const std::string near = scene::nearest_name(given, names);
   throw UsageError(
       fmt::format("error: no scene file and no scene named '{}'; {}`voxmelt list scenes` names those "
                   "that came with it",
@@ -77,6 +70,26 @@ void add_common(Command command, Common& common) {
       .one_each_time();
   command.option("--report", common.report, "also write the report to this JSON file");
   command.flag("--quiet", common.quiet, "no progress line, no notes");
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const fs::path& folder : scene_folders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string no_scenes_text() {
+  std::string folders;
+  for (const fs::path& folder : scene_folders()) folders += (folders.empty() ? "" : ", ") + folder.string();
+  return fmt::format(
+      "no scenes are in any of {}: give the environment VOXMELT_SCENES, the folder of those that "
+      "came with the program",
+      folders);
 }
 
 std::vector<fs::path> scene_folders() {

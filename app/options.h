@@ -59,5 +59,9 @@ void write_report(const Common& common, const std::string& text);  // if --repor
 
 // Lists the folders that are searched for scenes given by name.
 std::vector<std::filesystem::path> scene_folders();
+// Lists the names of the scenes there, in order. A program that was copied alone has none, and the text says
+// so.
+std::vector<std::string> scene_names();
+std::string no_scenes_text();
 
 }  // namespace voxmelt::app

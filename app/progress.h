@@ -1,4 +1,5 @@
-// The progress line of a long run has steps/s, liquid share and time left. It is shown only on a terminal.
+// The progress line of a long run has steps/s, liquid share and time left. On a terminal it is written over,
+// and into a file a line goes each minute.
 #pragma once
 
 #include <chrono>
@@ -20,8 +21,8 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   std::uint32_t steps_, begun_at_;
-  bool on_, shown_ = false;
-  Clock::time_point start_ = Clock::now(), last_{};
+  bool on_, terminal_, shown_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
 }  // namespace voxmelt::app

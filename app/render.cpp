@@ -1,7 +1,6 @@
 // The command `voxmelt render` draws one picture, or a turntable.
 #include <fmt/format.h>
 
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -10,11 +9,13 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "app/beginning.h"
 #include "app/commands.h"
 #include "app/film.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
 #include "app/progress.h"
@@ -22,6 +23,7 @@
 #include "app/surface_pictures.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/scene/text/ascii.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
 #include "render/reference/print_trace.h"
@@ -78,7 +80,7 @@ std::string write_surface(const RenderOptions& options, const render::Picture& p
 
 std::string suffix_of(const std::string& file) {
   std::string suffix = std::filesystem::path(file).extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : suffix) c = scene::lower_case(c);
   return suffix;
 }
 
@@ -134,27 +136,42 @@ void run_to(run::Simulation& simulation, const RenderOptions& options) {
   }
 }
 
-// Draws one picture, or a turntable, and then writes the report that `report()` gives.
+// Draws one picture, and then writes the report that `report()` gives.
 template <class Report>
-void write_pictures(const RenderOptions& options, const render::Picture& picture, scene::Camera camera,
-                    render::Setting setting, const Report& report) {
-  const auto draw = [&] { return picture.draw(camera, setting, thread_count(options.common)); };
-  if (options.turntable == 0) {
-    render::write_png(options.out, draw());
-    const std::string near = write_surface(options, picture, camera, setting);
-    write_report(options.common, report());
-    if (!options.common.quiet) print("written: {}\n{}", options.out, near);
-    return;
-  }
-  io::OutputFolder out(options.out);
-  for (int k = 0; k < options.turntable; ++k) {
-    stop_if_interrupted();
-    render::write_png(out.partial() / fmt::format("view_{:03d}.png", k), draw());
-    camera.azimuth += 360.0 / options.turntable;
-  }
+void write_picture(const RenderOptions& options, const render::Picture& picture, const scene::Camera& camera,
+                   render::Setting setting, const Report& report) {
+  render::write_png(options.out, picture.draw(camera, setting, thread_count(options.common)));
+  const std::string near = write_surface(options, picture, camera, setting);
+  if (!options.common.quiet) print("written: {}\n{}", options.out, near);
   write_report(options.common, report());
-  out.commit();
+}
+
+// Draws a turntable into `out`. If a view cannot be written, the earlier ones are kept.
+template <class Report>
+void write_turntable(const RenderOptions& options, io::OutputFolder& out, const render::Picture& picture,
+                     scene::Camera camera, render::Setting setting, const Report& report) {
+  int made = 0;
+  try {
+    for (; made < options.turntable; ++made) {
+      stop_if_interrupted();
+      render::write_png(out.partial() / fmt::format("view_{:03d}.png", made),
+                        picture.draw(camera, setting, thread_count(options.common)));
+      camera.azimuth += 360.0 / options.turntable;
+    }
+    out.commit();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const render::Stopped&) {
+    throw;
+  } catch (...) {
+    if (made == 0) throw;
+    out.release_reserve();
+    say(fmt::format("{} of {} views are kept in {}/", made, options.turntable,
+                    seen_from_here(out.keep_incomplete())));
+    throw;
+  }
   if (!options.common.quiet) print("{} views written to {}\n", options.turntable, options.out);
+  write_report(options.common, report());
 }
 
 int run_render(RenderOptions options) {
@@ -162,6 +179,14 @@ int run_render(RenderOptions options) {
   scene::Scene scene = load_view(options);
   const Pixel traced = options.trace ? pixel_of(*options.trace, scene.camera) : Pixel{};
   check_report_place(options.common, options.turntable > 0 ? options.out : "");
+  for (const auto& [option, file] :
+       {std::pair("--depth", options.depth), std::pair("--normals", options.normals)})
+    check_place(option, file, "");
+  std::optional<io::OutputFolder> out;
+  if (options.turntable > 0 && !options.trace)
+    out.emplace(options.out);
+  else if (!options.trace)
+    check_place("--out", options.out, "");
   catch_interrupts();
 
   run::Simulation simulation = make_simulation(scene, options.common);
@@ -181,7 +206,10 @@ int run_render(RenderOptions options) {
   picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, thread_count(options.common));
   if (picture.camera_inside(scene.camera))
     warn(scene, options.common, {"the camera stands in matter or in the ground, and sees nothing else"});
-  write_pictures(options, picture, scene.camera, setting, report);
+  if (out)
+    write_turntable(options, *out, picture, scene.camera, setting, report);
+  else
+    write_picture(options, picture, scene.camera, setting, report);
   return kDone;
 }
 

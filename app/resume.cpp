@@ -13,6 +13,7 @@
 #include "app/message.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/checkpoint_files.h"
+#include "kernel/run/io/exchange.h"
 #include "kernel/run/io/file_lock.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
@@ -23,13 +24,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kIncomplete = ".incomplete";
+constexpr std::size_t kRandom = 6;  // letters that mkdtemp chooses
 
 // Returns the output's place, even if a folder beside it was given.
 fs::path place_named(const fs::path& given) {
   fs::path place = fs::weakly_canonical(fs::absolute(given));
   if (!place.has_filename()) place = place.parent_path();
   std::string name = place.filename().string();
-  constexpr std::size_t kRandom = 6;  // letters that mkdtemp chooses
+  const std::string within = io::kPartialWithin;
+  if (name.starts_with(within) && name.size() == within.size() + kRandom) return place.parent_path();
+  if (io::is_beside_contents(place.parent_path(), name)) return place.parent_path();
   const std::size_t partial = name.rfind(".partial-");
   if (name.ends_with(kIncomplete))
     name.resize(name.size() - std::string(kIncomplete).size());
@@ -43,11 +47,19 @@ struct Candidate {
   std::uint32_t step = 0;
 };
 
+// A process may have died while it moved a finished output to its place.
+void complete_moves(const fs::path& place) {
+  for (const fs::path& left : io::leavings_of(place)) {
+    const io::FileLock lock = io::FileLock::attempt(left);
+    if (lock && io::is_half_moved(left) && io::move_entries(left, place) == 0) io::remove_output(left);
+  }
+}
+
 // Lists checkpoints, the newest of a folder first. The folder that was last written to comes first. A
 // complete output needs no more work, so its checkpoints do not count.
 std::vector<Candidate> candidates_of(const fs::path& place) {
   std::vector<fs::path> folders = io::leavings_of(place);
-  folders.push_back(place.string() + kIncomplete);
+  for (const bool within : {false, true}) folders.push_back(io::incomplete_place(place, within));
   if (!says_complete(place)) folders.push_back(place);
   struct Series {
     fs::file_time_type last;
@@ -114,6 +126,34 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
                           error == std::errc::no_space_on_device);
 }
 
+// A complete run has its last state beside its frames.
+std::vector<Candidate> last_state_of(const fs::path& place, const std::string& shown) {
+  const fs::path file = place / io::kLastState;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored))
+    throw UsageError(
+        fmt::format("--resume {}: error: the run is complete, and its last state is not there", shown));
+  return {{place, file, checkpoint::read_head(file).run.steps_done}};
+}
+
+// Gives the run another last step. The frame of its former last step stays if it is due without being the
+// last.
+void go_on(Resumption& run, const StepsWanted& steps) {
+  const std::uint32_t done = run.scene.mid_run->steps_done;
+  const std::uint64_t last = (steps.further ? std::uint64_t{done} : 0) + steps.count;
+  if (last < done)
+    throw UsageError(fmt::format(
+        "--steps {}: error: step {} of this run is done already; +N means further ones", steps.count, done));
+  if (last > UINT32_MAX)
+    throw UsageError(fmt::format("--steps +{}: error: step numbers end at {}", steps.count, UINT32_MAX));
+  run.record.steps = static_cast<std::uint32_t>(last);
+  std::vector<std::uint32_t>& frames = run.record.frame_steps;
+  if (!frames.empty() && !frame_is_due(run.record, frames.back())) {
+    frames.pop_back();
+    run.record.frames.pop_back();
+  }
+}
+
 // Takes over frames and then checkpoints: a folder that has checkpoints has their frames. Files are replaced
 // whole, never changed, so that two folders can share them.
 void take_over(const Candidate& from, const RunRecord& record, const fs::path& folder) {
@@ -125,6 +165,15 @@ void take_over(const Candidate& from, const RunRecord& record, const fs::path& f
   for (const io::CheckpointFile& one : io::checkpoints_in(from.folder))
     if (one.step <= from.step) link_or_copy(one.file, folder / "checkpoints" / one.file.filename());
   io::flush_folder(folder);
+}
+
+// Tells if a checkpoint is known to be of this run.
+bool is_of(const fs::path& file, const std::string& id) {
+  try {
+    return run_record_of(checkpoint::read_head(file).command, file).id == id;
+  } catch (const checkpoint::Error&) {
+    return false;
+  }
 }
 
 // Lists input files that have changed since the run began. The run does not read them again.
@@ -143,14 +192,25 @@ std::string changed_files(const checkpoint::SceneText& text) {
 
 }  // namespace
 
-std::optional<Resumption> find_run(const fs::path& given) {
+std::vector<fs::path> checkpoints_left(const fs::path& given) {
+  std::vector<fs::path> files;
+  std::error_code impossible;  // as a name, because it is too long
+  (void)fs::status(given, impossible);
+  if (impossible && impossible != std::errc::no_such_file_or_directory) return files;
+  for (const Candidate& candidate : candidates_of(place_named(given))) files.push_back(candidate.file);
+  return files;
+}
+
+std::optional<Resumption> find_run(const fs::path& given, const std::optional<StepsWanted>& steps) {
   const fs::path place = place_named(given);
   const std::string shown = given.string();
   std::error_code ignored;
   if (fs::is_regular_file(given, ignored))
     throw UsageError(fmt::format("--resume {}: error: is a file; give the folder of the run's output{}",
                                  shown, outputs_folder(given)));
-  const std::vector<Candidate> candidates = candidates_of(place);
+  complete_moves(place);
+  std::vector<Candidate> candidates = candidates_of(place);
+  if (steps && candidates.empty() && says_complete(place)) candidates = last_state_of(place, shown);
   const std::vector<fs::path> leavings = io::leavings_of(place);
   if (std::ranges::any_of(leavings, is_alive))
     throw UsageError(fmt::format("--resume {}: error: a run is at work there", shown));
@@ -173,6 +233,7 @@ std::optional<Resumption> find_run(const fs::path& given) {
                                    candidate.folder.filename().string()));
     try {
       Resumption run = load(candidate);
+      if (steps) go_on(run, *steps);
       if (note.empty()) note = changed_files(run.text);
       run.note = note;
       run.place = place;
@@ -192,19 +253,17 @@ std::optional<Resumption> find_run(const fs::path& given) {
 void clear_after(const fs::path& place, const std::string& id) {
   std::error_code ignored;
   fs::remove_all(place / "checkpoints", ignored);
-  const fs::path incomplete = place.string() + kIncomplete;
-  for (const io::CheckpointFile& one : io::checkpoints_in(incomplete)) {
-    try {
-      if (run_record_of(checkpoint::read_head(one.file).command, one.file).id != id) continue;
-    } catch (const checkpoint::Error&) {
-      continue;  // not known to be of this run
-    }
+  for (const bool within : {false, true}) {
+    const fs::path incomplete = io::incomplete_place(place, within);
+    const std::vector<io::CheckpointFile> kept = io::checkpoints_in(incomplete);
+    if (std::ranges::none_of(kept, [&](const io::CheckpointFile& one) { return is_of(one.file, id); }))
+      continue;
     // If the process dies after the rename, the next run removes the rest.
-    const fs::path aside = place.string() + ".partial-remove";
+    const fs::path aside = within ? place / (std::string(io::kPartialWithin) + "remove")
+                                  : fs::path(place.string() + ".partial-remove");
     io::remove_output(aside);
     fs::rename(incomplete, aside, ignored);
     io::remove_output(aside);
-    break;
   }
 }
 

@@ -2,10 +2,12 @@
 // it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/run_record.h"
 #include "kernel/run/io/output_folder.h"
@@ -22,10 +24,20 @@ struct Resumption {
   std::string note;                          // why an older checkpoint had to do, or what changed; or empty
 };
 
+// Holds the value of --steps for a run that goes on: a number in all, or of further ones ("+2000").
+struct StepsWanted {
+  std::uint32_t count = 0;
+  bool further = false;
+};
+
 // Finds the run. `given` is the folder as --out named it, or one beside it (NAME.partial-...,
-// NAME.incomplete). Returns nothing if the run is complete. Throws UsageError if there is no checkpoint, and
-// checkpoint::Error if none of them is whole.
-std::optional<Resumption> find_run(const std::filesystem::path& given);
+// NAME.incomplete). `steps` are its new last step. Returns nothing if the run is complete without them.
+// Throws UsageError if there is no checkpoint, and checkpoint::Error if none of them is whole.
+std::optional<Resumption> find_run(const std::filesystem::path& given,
+                                   const std::optional<StepsWanted>& steps = {});
+
+// Lists the checkpoints of an output that is not complete, the newest first. `given` is as for find_run().
+std::vector<std::filesystem::path> checkpoints_left(const std::filesystem::path& given);
 
 // Removes the checkpoints of a complete output that stands in its place, and what was kept of this run
 // elsewhere.

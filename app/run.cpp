@@ -1,7 +1,10 @@
 // The command `voxmelt run` does the main job: steps, frames, a contact sheet, a film, a report.
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,6 +12,8 @@
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "app/checkpoints.h"
@@ -29,14 +34,50 @@ namespace {
 
 struct RunOptions {
   Common common;
-  std::optional<std::uint32_t> steps, frame_every;
+  std::optional<std::string> steps;
+  std::optional<std::uint32_t> frame_every;
   std::string out;
   std::optional<std::string> size;
   std::optional<int> fps;
-  std::optional<std::string> checkpoint_every;
+  std::optional<std::string> checkpoint_every, wall_clock;
   std::string resume;           // folder; empty for a run from the scene's beginning
   std::set<std::string> given;  // given options, among those that a resumed run may change
 };
+
+// Reads "3h55m", "90s", "45m" or "2h": hours, minutes and seconds, each once at most. Throws UsageError.
+std::chrono::seconds duration_of(const std::string& text) {
+  const auto wrong = [&] {
+    return UsageError(fmt::format("--wall-clock {}: error: want a time, as in 3h55m, 45m or 90s", text));
+  };
+  constexpr std::string_view kUnits = "hms";
+  constexpr std::array kSeconds{3600, 60, 1};
+  std::chrono::seconds sum{0};
+  std::size_t next = 0;  // unit that may come
+  for (std::string_view left = text; !left.empty();) {
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(left.data(), left.data() + left.size(), number);
+    const bool named = error == std::errc() && end != left.data() + left.size() && number <= 10'000'000;
+    const std::size_t unit = named ? kUnits.find(*end, next) : std::string_view::npos;
+    if (unit == std::string_view::npos) throw wrong();
+    sum += std::chrono::seconds(std::int64_t{number} * kSeconds[unit]);
+    next = unit + 1;
+    left.remove_prefix(end + 1 - left.data());
+  }
+  if (sum.count() == 0) throw wrong();
+  return sum;
+}
+
+// Reads "2000", or "+2000" for further steps. Throws UsageError.
+StepsWanted steps_wanted(const std::string& text) {
+  StepsWanted steps{.further = text.starts_with('+')};
+  const char *begin = text.data() + (steps.further ? 1 : 0), *end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(begin, end, steps.count);
+  if (begin == end || last != end || error != std::errc())
+    throw UsageError(
+        fmt::format("--steps {}: error: want a number of steps up to {}, or +N for further ones of --resume",
+                    text, UINT32_MAX));
+  return steps;
+}
 
 std::string by_chance() {
   std::random_device device;
@@ -54,7 +95,10 @@ PreparedRun prepare(const RunOptions& options) {
   RunRecord& record = run.record;
   record.common = common;
   if (!common.report.empty()) record.common.report = std::filesystem::absolute(common.report).string();
-  record.steps = options.steps.value_or(scene.steps);
+  const StepsWanted steps = options.steps ? steps_wanted(*options.steps) : StepsWanted{scene.steps};
+  if (steps.further)
+    throw UsageError(fmt::format("--steps {}: error: + goes on with a run of --resume", *options.steps));
+  record.steps = steps.count;
   record.frame_every = options.frame_every.value_or(scene.frame_every);
   record.size = options.size.value_or("");
   if (options.size) set_size(scene.camera, *options.size);
@@ -70,7 +114,9 @@ PreparedRun prepare(const RunOptions& options) {
 
 // Returns nothing if the run is complete already.
 std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
-  std::optional<Resumption> found = find_run(options.resume);
+  std::optional<StepsWanted> steps;
+  if (options.steps) steps = steps_wanted(*options.steps);
+  std::optional<Resumption> found = find_run(options.resume, steps);
   if (!found) return std::nullopt;
   PreparedRun run{std::move(found->scene), std::move(found->text), std::move(found->record),
                   std::move(found->folder)};
@@ -97,10 +143,12 @@ int run_scene(const RunOptions& options) {
     throw UsageError("error: a scene, or --resume FOLDER, is required; --help says more");
   if (options.checkpoint_every && !interval_of(*options.checkpoint_every))
     throw UsageError("--checkpoint-every: error: want a number of steps, or of seconds as in 60s");
-  if (options.resume.empty()) return run_to_end(prepare(options), start);
-  std::optional<PreparedRun> run = prepare_to_resume(options);
+  std::optional<std::chrono::seconds> wall_clock;
+  if (options.wall_clock) wall_clock = duration_of(*options.wall_clock);
+  std::optional<PreparedRun> run = options.resume.empty() ? prepare(options) : prepare_to_resume(options);
+  if (run) run->wall_clock = wall_clock;
   if (run) return run_to_end(std::move(*run), start);
-  if (!options.common.quiet) print("the run in {} is complete\n", options.resume);
+  if (!options.common.quiet) print("the run in {} is complete; --steps +N goes on\n", options.resume);
   return kDone;
 }
 
@@ -111,13 +159,15 @@ void add_run(CommandLine& program) {
   const Command command =
       program.add("run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
   add_scene(command, options->common);
-  const Option scene = command.find("scene").required(false);
-  const Option resume =
-      command.option("--resume", options->resume,
-                     "go on with the run of this folder, which was interrupted, killed or out of room");
+  const Option scene = command.find("scene").required(false).described_as(
+      "scene file (TOML), or a name of `voxmelt list scenes`; --resume goes on from a checkpoint");
+  const Option resume = command.option(
+      "--resume", options->resume,
+      "go on with the run of this folder: interrupted, killed, out of room, or with more --steps");
   resume.excludes(scene);
   const auto begins = [&](Option option) { option.excludes(resume); };
-  begins(command.option("--steps", options->steps, "steps to run (default: the scene's)"));
+  command.option("--steps", options->steps,
+                 "steps to run (default: the scene's); with --resume in all, or +N more");
   begins(command.option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
   begins(command.option("--out", options->out, "folder to write (default: out/SCENE)"));
   begins(command.option("--size", options->size, "size of a frame in pixels, e.g. 640x480"));
@@ -125,6 +175,8 @@ void add_run(CommandLine& program) {
       .within(1, kMostFramesPerSecond);
   command.option("--checkpoint-every", options->checkpoint_every,
                  "write a checkpoint after every N steps, or every N seconds (60s)");
+  command.option("--wall-clock", options->wall_clock,
+                 "end after this time (3h55m, 90s) as at a signal: with a checkpoint, and exit code 4");
   add_common(command, options->common);
   add_visibility(command, options->common);
   for (const char* option : {"--seed", "--set"}) begins(command.find(option));

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <exception>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/checkpoints.h"
+#include "app/ending.h"
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/message.h"
@@ -21,32 +25,30 @@
 #include "app/watch.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/checkpoint_files.h"
-#include "render/image/png.h"
 
 namespace voxmelt::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Does `work`. If the disk is full, returns the error's text, else nothing.
+// Does `work`, and returns what it throws, or null.
 template <class Work>
-std::string until_full(Work&& work) {
-  const auto full = [](const auto& error) {
-    if (!error.out_of_space()) throw error;
-    return std::string(error.what());
-  };
+std::exception_ptr tried(Work&& work) {
   try {
     work();
-    return {};
-  } catch (const io::OutputError& error) {
-    return full(error);
-  } catch (const render::ImageError& error) {
-    return full(error);
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
   }
 }
 
 RunSeconds sum_of(const RunSeconds& a, const RunSeconds& b) {
   return {a.update + b.update, a.render + b.render, a.encode + b.encode, a.wait + b.wait, a.total + b.total};
+}
+
+bool holds_frames(const std::filesystem::path& partial) {
+  std::error_code ignored;
+  return std::filesystem::exists(partial / "frames" / render::Frames::file_name(0), ignored);
 }
 
 class Run {
@@ -64,14 +66,17 @@ class Run {
   }
 
   int to_end() {
-    std::string full = until_full([&] { step_on(); });
-    const bool complete = full.empty() && simulation_.steps_done() == steps();
+    std::exception_ptr failed = tried([&] { step_on(); });
+    const bool complete = !failed && simulation_.steps_done() == steps();
     warn_of_what_was_seen(complete);
     place_ = seen_from_here(out().place());
-    if (full.empty()) full = until_full([&] { write_outputs(complete); });
-    if (!full.empty()) return keep_incomplete(full);
+    std::string report;
+    if (!failed) failed = tried([&] { report = put_into_place(complete); });
+    if (failed) return keep_incomplete(failed);
+    // The output stands in its place. Nothing that fails from here on takes it away.
     if (complete) clear_after(out().place(), record().id);
     if (!common().quiet) print_outputs();
+    write_report(common(), report);
     return verdict(complete);
   }
 
@@ -85,7 +90,8 @@ class Run {
   render::Frames::Plan plan() const {
     return {.count = frames_due_before(record(), steps()) + (frame_is_due(record(), steps()) ? 1 : 0),
             .threads = thread_count(common()),
-            .frames_per_second = record().frames_per_second};
+            .frames_per_second = record().frames_per_second,
+            .stop = interrupted};
   }
   RunSeconds seconds_now() const {
     RunSeconds now = film_->seconds();
@@ -93,6 +99,7 @@ class Run {
     return sum_of(record().seconds, now);
   }
 
+  bool is_late() const { return run_.wall_clock && Clock::now() - start_ >= *run_.wall_clock; }
   bool checkpoint() {
     film_->settle();  // then the times of its threads are known
     return checkpoints_.write(record(), *film_, simulation_, watch_.seen(), seconds_now());
@@ -111,7 +118,7 @@ class Run {
         record().frame_steps.size() == frames_due_before(record(), begun_at_))
       show(begun_at_);
     Progress progress(steps(), common().quiet, begun_at_);
-    while (simulation_.steps_done() < steps() && !interrupted()) {
+    while (simulation_.steps_done() < steps() && !interrupted() && !is_late()) {
       simulation_.step();
       film_->check();
       const std::uint32_t done = simulation_.steps_done();
@@ -133,24 +140,36 @@ class Run {
     warn(run_.scene, common(), warnings);
   }
 
-  void write_outputs(bool complete) {
-    const std::string report = report_json(run_.scene, common(), simulation_, seconds_now(), complete);
+  std::string put_into_place(bool complete) {
+    // Where there is no room for the last state, there still is room for the rest.
+    if (complete)
+      (void)tried(
+          [&] { checkpoints_.write_last(record(), *film_, simulation_, watch_.seen(), seconds_now()); });
+    std::string report = report_json(run_.scene, common(), simulation_, seconds_now(), complete);
     io::write_file(out().partial() / "report.json", report);
-    write_report(common(), report);
     out().commit();
+    return report;
   }
 
-  int keep_incomplete(const std::string& full) {
-    film_.reset();  // ends its threads, so that nothing is written beside the report
+  // Keeps what was made before the failure. If nothing was, it is the failure's.
+  int keep_incomplete(const std::exception_ptr& failed) {
+    const Ending ending = ending_of(failed);
+    film_.reset();  // nothing is written beside what follows
+    if (!holds_frames(out().partial()) && !io::holds_work(out().partial()) && ending.code != kOutOfResources)
+      std::rethrow_exception(failed);
     out().release_reserve();
-    io::write_file(out().partial() / "report.json",
-                   report_json(run_.scene, common(), simulation_, RunSeconds{}, false));
+    (void)tried([&] {  // the frames are worth more than their report
+      io::write_file(out().partial() / "report.json",
+                     report_json(run_.scene, common(), simulation_, RunSeconds{}, false));
+    });
     const bool goes_on = io::holds_work(out().partial());
     const std::string kept = seen_from_here(out().keep_incomplete());
-    say(fmt::format("{}; the run ended after step {} of {}, and what was made is kept in {}/{}", full,
-                    simulation_.steps_done(), steps(), kept,
-                    goes_on ? "; with more room, " + resume_command() : ""));
-    return kOutOfResources;
+    say(fmt::format("{}; the run ended after step {} of {}, and what was made is kept in {}/{}",
+                    ending.message, simulation_.steps_done(), steps(), kept,
+                    !goes_on                         ? ""
+                    : ending.code == kOutOfResources ? "; with more room, " + resume_command()
+                                                     : "; " + resume_command()));
+    return ending.code;
   }
 
   void print_outputs() const {
@@ -169,8 +188,9 @@ class Run {
       return kCheckFailed;
     }
     if (complete) return kDone;
-    say(fmt::format("interrupted after step {} of {}; what was made is kept{}", simulation_.steps_done(),
-                    steps(), resumable_ ? "; " + resume_command() : ""));
+    say(fmt::format("{} after step {} of {}; what was made is kept{}",
+                    interrupted() ? "interrupted" : "the time of --wall-clock is over",
+                    simulation_.steps_done(), steps(), resumable_ ? "; " + resume_command() : ""));
     return kInterrupted;
   }
 

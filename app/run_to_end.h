@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "app/run_record.h"
 #include "kernel/run/checkpoint/checkpoint.h"
@@ -17,6 +18,7 @@ struct PreparedRun {
   checkpoint::SceneText text;
   RunRecord record;
   std::unique_ptr<io::OutputFolder> out;
+  std::optional<std::chrono::seconds> wall_clock{};  // for how long it may run
 };
 
 // Runs to the end, or to a signal, or until the disk is full. `start` is when the command began. Returns the

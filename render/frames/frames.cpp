@@ -29,7 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Frames::Frames(std::filesystem::path folder, const Plan& plan)
     : folder_(std::move(folder)),
       sheet_(plan.count),
-      video_(folder_ / "film.mp4", plan.frames_per_second),
+      video_(folder_ / "film.mp4", plan.frames_per_second, {.stop = plan.stop}),
       film_(
           plan.threads > 1 ? 1 : 0, ahead(plan),
           [this](Frame& frame) { video_.add(frame.image ? *frame.image : read_png(file_of(frame.number))); }),

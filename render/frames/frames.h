@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -18,10 +19,11 @@ namespace voxmelt::render {
 class Frames {
  public:
   struct Plan {
-    std::size_t count = 0;        // frames that are planned; fewer are no error
-    std::size_t frame_bytes = 0;  // bytes of a picture in memory; few large ones may wait
-    int threads = 1;              // with one, all work is done in turn; with more, beside the caller
-    int frames_per_second = 12;   // of the film
+    std::size_t count = 0;         // frames that are planned; fewer are no error
+    std::size_t frame_bytes = 0;   // bytes of a picture in memory; few large ones may wait
+    int threads = 1;               // with one, all work is done in turn; with more, beside the caller
+    int frames_per_second = 12;    // of the film
+    std::function<bool()> stop{};  // says that the film should not be waited for; may be empty
   };
 
   // Writes folder/frames/frame_00000.png and so on, folder/contact_sheet.png and folder/film.mp4. No byte

@@ -1,7 +1,6 @@
 #include "render/image/label.h"
 
 #include <array>
-#include <cctype>
 #include <cstdint>
 
 namespace voxmelt::render {
@@ -60,7 +59,8 @@ constexpr Glyph kFont[] = {
 };
 
 const Glyph* find_glyph(char character) {
-  const int capital = std::toupper(static_cast<unsigned char>(character));
+  // The letters of ASCII alone: what others are goes by the locale.
+  const int capital = character >= 'a' && character <= 'z' ? character - 'a' + 'A' : character;
   for (const Glyph& glyph : kFont)
     if (glyph.character == capital) return &glyph;
   return nullptr;

@@ -1,10 +1,7 @@
 #include "render/image/video.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
+#include <poll.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,47 +17,9 @@
 namespace voxmelt::render {
 namespace {
 
+constexpr int kBetweenLooks = 20;  // milliseconds
+
 constexpr std::array kH264{"-c:v", "libx264", "-crf", "18"}, kMpeg4{"-c:v", "mpeg4", "-q:v", "3"};
-
-// Starts a program found on PATH, with `input` for its standard input, and discards its output. Returns 0, or
-// an error number. The program has a process group of its own, because an interrupt of ours is not one of the
-// film.
-int start_quietly(const std::vector<std::string>& arguments, int input, pid_t& child) {
-  std::vector<char*> argv;
-  argv.reserve(arguments.size() + 1);
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  if (input >= 0)
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  else
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t ours;  // signals that we ignore get their default in the child
-  sigemptyset(&ours);
-  sigaddset(&ours, SIGPIPE);
-  sigaddset(&ours, SIGXFSZ);
-  posix_spawnattr_setsigdefault(&attributes, &ours);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const int error = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
-
-// Returns the exit status of a child, or 128 if a signal ended it.
-int status_of(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return 128;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
 
 std::vector<std::string> raw_video(int width, int height) {
   return {"ffmpeg",      "-y",
@@ -71,26 +30,29 @@ std::vector<std::string> raw_video(int width, int height) {
 }
 
 // Tells whether ffmpeg encodes a black picture.
-bool encodes(const std::string& codec) {
+bool encodes(const std::string& codec, const Patience& patience) {
   std::vector<std::string> arguments = raw_video(64, 64);
   for (const char* argument : {"-i", "/dev/zero", "-frames:v", "1", "-pix_fmt", "yuv420p", "-c:v"})
     arguments.emplace_back(argument);
   for (const std::string& argument : {codec, std::string("-f"), std::string("null"), std::string("-")})
     arguments.push_back(argument);
-  pid_t child = 0;
-  return start_quietly(arguments, -1, child) == 0 && status_of(child) == 0;
+  Child child;
+  std::string why;
+  return child.start(arguments, -1) == 0 && child.wait(patience, why) == 0;
 }
 
 }  // namespace
 
-VideoWriter::VideoWriter(std::filesystem::path file, int frames_per_second)
-    : file_(std::move(file)), beside_(file_.string() + ".part"), frames_per_second_(frames_per_second) {}
+VideoWriter::VideoWriter(std::filesystem::path file, int frames_per_second, Patience patience)
+    : file_(std::move(file)),
+      beside_(file_.string() + ".part"),
+      frames_per_second_(frames_per_second),
+      patience_(std::move(patience)) {}
 
 VideoWriter::~VideoWriter() {
   close();
-  if (ffmpeg_ == 0) return;
-  kill(ffmpeg_, SIGKILL);
-  status_of(ffmpeg_);
+  if (!ffmpeg_.is_there()) return;
+  ffmpeg_.end();
   std::error_code ignored;
   std::filesystem::remove(beside_, ignored);
 }
@@ -103,7 +65,8 @@ void VideoWriter::start(int width, int height) {
         std::string("pipe:0"), std::string("-vf"), std::string("crop=trunc(iw/2)*2:trunc(ih/2)*2"),
         std::string("-pix_fmt"), std::string("yuv420p")})
     arguments.push_back(argument);
-  for (const char* argument : encodes("libx264") ? kH264 : kMpeg4) arguments.emplace_back(argument);
+  for (const char* argument : encodes("libx264", patience_) ? kH264 : kMpeg4)
+    arguments.emplace_back(argument);
   for (const char* argument : {"-movflags", "+faststart", "-f", "mp4"}) arguments.emplace_back(argument);
   arguments.push_back(beside_.string());
 
@@ -111,12 +74,11 @@ void VideoWriter::start(int width, int height) {
   int ends[2];
   int error = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
   if (error == 0) {
-    error = start_quietly(arguments, ends[1], ffmpeg_);
+    error = ffmpeg_.start(arguments, ends[1]);
     ::close(ends[1]);
     to_ffmpeg_ = ends[0];
   }
   if (error == 0) return;
-  ffmpeg_ = 0;
   close();
   problem_ = std::string("ffmpeg cannot be started: ") + std::strerror(error) +
              (error == ENOENT ? " (Debian's package `ffmpeg` has it)" : "");
@@ -126,16 +88,31 @@ void VideoWriter::add(const Image& frame) {
   if (!begun_) start(frame.width, frame.height);
   const auto* bytes = reinterpret_cast<const char*>(frame.pixels.data());
   std::size_t left = frame.pixels.size() * sizeof(Rgb);
+  if (to_ffmpeg_ >= 0) ffmpeg_.begin_wait(patience_, beside_);
   while (left > 0 && to_ffmpeg_ >= 0) {
-    const ssize_t sent = send(to_ffmpeg_, bytes, left, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) {  // ffmpeg is gone; its exit status says why, if it is not 0
+    const ssize_t sent = send(to_ffmpeg_, bytes, left, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0) {
+      bytes += sent;
+      left -= static_cast<std::size_t>(sent);
+      ffmpeg_.begin_wait(patience_, beside_);
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      wait_for_room();
+    } else if (errno != EINTR) {  // it is gone: its exit status says why, if it is not 0
       problem_ = std::string("ffmpeg takes no more frames: ") + std::strerror(errno);
-      return close();
+      close();
     }
-    bytes += sent;
-    left -= sent;
   }
+}
+
+// Waits a moment, until ffmpeg takes more, or until it has had its time.
+void VideoWriter::wait_for_room() {
+  pollfd room{to_ffmpeg_, POLLOUT, 0};
+  if (::poll(&room, 1, kBetweenLooks) > 0) return;
+  const std::string why = ffmpeg_.lost_patience(patience_);
+  if (why.empty()) return;
+  problem_ = "ffmpeg " + why;
+  close();
+  ffmpeg_.end();
 }
 
 void VideoWriter::close() {
@@ -146,16 +123,20 @@ void VideoWriter::close() {
 std::optional<std::string> VideoWriter::finish() {
   close();
   const std::string no_film = file_.string() + ": no film: ";
-  if (ffmpeg_ == 0) return no_film + (problem_.empty() ? "there are no frames" : problem_);
-  const int status = status_of(std::exchange(ffmpeg_, 0));
-  std::error_code error;
+  std::error_code error, ignored;
+  if (!ffmpeg_.is_there()) {
+    std::filesystem::remove(beside_, ignored);
+    return no_film + (problem_.empty() ? "there are no frames" : problem_);
+  }
+  std::string why;
+  const std::optional<int> status = ffmpeg_.wait(patience_, why, beside_);
   const bool complete = status == 0 && problem_.empty();
   if (complete) std::filesystem::rename(beside_, file_, error);
   if (complete && !error) return std::nullopt;
-  std::error_code ignored;
   std::filesystem::remove(beside_, ignored);
   if (error) return no_film + error.message();
-  return no_film + (status == 0 ? problem_ : "ffmpeg failed with exit status " + std::to_string(status));
+  if (!status) return no_film + "ffmpeg " + why;
+  return no_film + (*status == 0 ? problem_ : "ffmpeg failed with exit status " + std::to_string(*status));
 }
 
 bool ffmpeg_found() {

@@ -1,12 +1,11 @@
 // MP4 files are made by the `ffmpeg` program, if it is installed.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 
+#include "render/image/child.h"
 #include "render/image/image.h"
 
 namespace voxmelt::render {
@@ -16,7 +15,8 @@ namespace voxmelt::render {
 // are ignored.
 class VideoWriter {
  public:
-  VideoWriter(std::filesystem::path file, int frames_per_second);
+  // A film is given up when patience with ffmpeg is lost.
+  VideoWriter(std::filesystem::path file, int frames_per_second, Patience patience = {});
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
   ~VideoWriter();  // without finish() there is no film, and nothing is left
@@ -33,11 +33,13 @@ class VideoWriter {
 
  private:
   void start(int width, int height);
+  void wait_for_room();
 
   std::filesystem::path file_, beside_;
   int frames_per_second_;
+  Patience patience_;
   int to_ffmpeg_ = -1;  // a socket
-  pid_t ffmpeg_ = 0;
+  Child ffmpeg_;
   bool begun_ = false;
   std::string problem_;
 };

@@ -8,6 +8,8 @@
 namespace voxmelt::io {
 
 // Returns FOLDER/checkpoints/step_00001234.vxc.
+inline constexpr const char* kLastState = "last.vxc";  // of a complete run
+
 std::filesystem::path checkpoint_place(const std::filesystem::path& folder, std::uint32_t step);
 
 // Lists the checkpoints of an output folder, the newest first, by their names. No file is looked into.

@@ -5,12 +5,16 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "kernel/run/io/checkpoint_files.h"
+#include "kernel/run/io/declined.h"
+#include "kernel/run/io/exchange.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::io {
@@ -18,15 +22,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A process holds this lock for moments. One that was stopped does not stop others.
+constexpr int kMostWaits = 500;
+constexpr std::chrono::milliseconds kBetweenWaits{10};
+
 int open_to_lock(const fs::path& path) { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }
 
+// Throws only if bytes may be lost. A folder that cannot be opened or flushed is as good without.
 void flush(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0 && errno == ELOOP) return;  // a link: its entry is flushed with its folder
-  const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS);
+  const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
   const int why = errno;
   if (descriptor >= 0) ::close(descriptor);
-  if (!done)
+  if (!done && !is_declined(why))
     throw OutputError(path.string() + ": error: cannot flush: " + std::strerror(why),
                       why == ENOSPC || why == EDQUOT);
 }
@@ -40,7 +49,9 @@ FileLock::~FileLock() {
 FileLock FileLock::wait(const fs::path& path) {
   FileLock lock;
   lock.descriptor_ = open_to_lock(path);
-  while (lock && ::flock(lock.descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+  for (int i = 0; lock && i < kMostWaits && ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0; ++i) {
+    if (errno != EINTR && errno != EWOULDBLOCK) break;
+    std::this_thread::sleep_for(kBetweenWaits);
   }
   return lock;
 }
@@ -61,6 +72,9 @@ std::vector<fs::path> leavings_of(const fs::path& place) {
   for (const auto& entry : fs::directory_iterator(place.parent_path(), ignored))
     if (entry.path().filename().string().starts_with(begin) && !fs::is_symlink(entry.path(), ignored))
       leavings.push_back(entry.path());
+  if (!fs::is_directory(place, ignored)) return leavings;
+  for (const auto& entry : fs::directory_iterator(place, ignored))
+    if (entry.path().filename().string().starts_with(kPartialWithin)) leavings.push_back(entry.path());
   return leavings;
 }
 
@@ -68,6 +82,7 @@ bool clear_leavings(const fs::path& place, bool keep_checkpoints) {
   bool alive = false;
   for (const fs::path& left : leavings_of(place)) {
     const FileLock lock = FileLock::attempt(left);
+    if (lock && is_half_moved(left) && move_entries(left, place) != 0) continue;
     if (lock && !(keep_checkpoints && !checkpoints_in(left).empty())) remove_output(left);
     alive = alive || lock.held_by_another();
   }

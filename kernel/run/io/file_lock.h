@@ -35,15 +35,17 @@ class FileLock {
   bool held_by_another_ = false;
 };
 
-// Lists "<place>.partial-*", whoever made them.
+// Lists "<place>.partial-*", whoever made them, and partial outputs within the place.
 std::vector<std::filesystem::path> leavings_of(const std::filesystem::path& place);
 
 // Removes the leavings of processes that have ended, or only those without checkpoints (checkpoint_files.h).
+// Those that were moved to their place in part are moved on first (exchange.h).
 // It returns true if a living process is at work on `place`. No new leavings may appear meanwhile, so hold a
 // lock of the folder above.
 bool clear_leavings(const std::filesystem::path& place, bool keep_checkpoints = false);
 
-// Flushes one file to the disk before it returns. It throws OutputError, as do the functions below.
+// Flushes one file to the disk before it returns. It throws OutputError, as do the functions below, unless
+// the file system declines.
 void flush_file(const std::filesystem::path& file);
 // Flushes everything in the folder to the disk before it returns. It throws OutputError.
 void flush_folder(const std::filesystem::path& folder);

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "kernel/run/io/declined.h"
 #include "kernel/run/io/file_lock.h"
 
 namespace voxmelt::io {
@@ -60,8 +61,9 @@ void FileWriter::commit() {
   ::umask(mask);
   const int descriptor = ::fileno(file_);
   int error = std::fflush(file_) == 0 ? 0 : errno;
-  if (replace_ && error == 0 && (::fchmod(descriptor, 0666 & ~mask) != 0 || ::fsync(descriptor) != 0))
-    error = errno;
+  // Where modes and flushes are declined, the file is as good without.
+  if (replace_ && error == 0) (void)::fchmod(descriptor, 0666 & ~mask);
+  if (replace_ && error == 0 && ::fsync(descriptor) != 0 && !is_declined(errno)) error = errno;
   if (std::fclose(std::exchange(file_, nullptr)) != 0 && error == 0) error = errno;
   const auto held = changing_places();
   if (error == 0 && replace_ && std::rename(partial_.c_str(), place_.c_str()) != 0) error = errno;

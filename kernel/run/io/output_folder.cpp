@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "kernel/run/io/checkpoint_files.h"
+#include "kernel/run/io/exchange.h"
 
 namespace voxmelt::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMarker = ".voxmelt-output";
 constexpr const char* kReserve = ".voxmelt-reserve";  // room for report and marker when the disk is full
 constexpr std::size_t kReserved = std::size_t{256} << 10;
 
@@ -61,7 +61,8 @@ void check_replaceable(const fs::path& place) {
     written.insert(one.file.lexically_relative(place).string());
   for (std::string line; std::getline(marker, line);) written.insert(line);
   for (const std::string& file : files_within(place))
-    if (!written.contains(file) && !made_by_desktops(fs::path(file).filename().string()))
+    if (!is_beside_contents(place, fs::path(file).begin()->string()) && !written.contains(file) &&
+        !made_by_desktops(fs::path(file).filename().string()))
       refuse(place, "holds '" + file + "', which voxmelt did not write; choose another folder");
 }
 
@@ -78,21 +79,6 @@ void reserve(const fs::path& folder) {
   const std::string bytes(kReserved, '\1');
   (void)std::fwrite(bytes.data(), 1, bytes.size(), file);
   (void)std::fclose(file);
-}
-
-// Exchanges two folders in one step. If the file system cannot do so, the old one goes first. It returns 0 or
-// errno.
-int exchange(const fs::path& fresh, const fs::path& old) {
-  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return errno;
-  const std::string aside = fresh.string() + ".old";
-  if (std::rename(old.c_str(), aside.c_str()) != 0) return errno;
-  if (std::rename(fresh.c_str(), old.c_str()) != 0) {
-    const int why = errno;
-    (void)std::rename(aside.c_str(), old.c_str());
-    return why;
-  }
-  return std::rename(aside.c_str(), fresh.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace
@@ -126,7 +112,9 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
     clear_leavings(place_);
   }
   const auto held = changing_places();
-  std::string partial = beside(place_);
+  within_ = must_stay(place_);
+  std::string partial =
+      within_ ? (place_ / (std::string(kPartialWithin) + "XXXXXX")).string() : beside(place_);
   if (::mkdtemp(partial.data()) == nullptr) refuse_to_create(errno);
   partial_ = partial;
   unfinished_.begin([this] { discard(); });
@@ -141,7 +129,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::discard() {
-  if (committed_ || holds_work(partial_)) return;
+  if (settled_ || holds_work(partial_)) return;
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
   remove_new_folders();
@@ -175,25 +163,36 @@ void OutputFolder::move_to(const fs::path& place) {
   write_file(partial_ / kMarker, files);
   flush_folder(partial_);
 
-  std::error_code error;
   auto held = changing_places();
-  const bool replace = fs::exists(place, error);
-  const int why =
-      replace ? exchange(partial_, place) : (std::rename(partial_.c_str(), place.c_str()) == 0 ? 0 : errno);
+  const int why = exchange(partial_, place);
   if (why != 0) fail_output(place, "cannot move the finished folder into place", why);
-  committed_ = true;
+  settled_ = true;
   unfinished_.complete();
   held.unlock();
   flush_entry(place);
-  if (replace) remove_output(partial_);  // the former contents
+  std::error_code ignored;
+  if (fs::exists(partial_, ignored)) remove_output(partial_);  // the former contents
 }
 
 void OutputFolder::commit() { move_to(place_); }
 
+fs::path incomplete_place(const fs::path& place, bool within) {
+  return within ? place / kIncompleteWithin : fs::path(place.string() + ".incomplete");
+}
+
 fs::path OutputFolder::keep_incomplete() {
-  const fs::path place = place_.string() + ".incomplete";
-  move_to(place);
-  return place;
+  const fs::path place = incomplete_place(place_, within_);
+  try {
+    move_to(place);
+    return place;
+  } catch (const OutputError&) {
+  } catch (const fs::filesystem_error&) {
+  }
+  // It cannot be moved, or its marker has no room. It stays where it is.
+  const auto held = changing_places();
+  settled_ = true;
+  unfinished_.complete();
+  return partial_;
 }
 
 }  // namespace voxmelt::io

@@ -1,5 +1,5 @@
 // An output folder is never half-written. It is filled beside its final place, flushed, and exchanged with
-// the old contents when it is complete.
+// the old contents when it is complete. A place that must stay where it is (exchange.h) has it within.
 #pragma once
 
 #include <filesystem>
@@ -24,12 +24,13 @@ class OutputFolder {
   const std::filesystem::path& partial() const { return partial_; }  // write here
   const std::filesystem::path& place() const { return place_; }      // it ends up here
   // Puts the new folder into place. At every moment either the old contents stand at `place`, or the new
-  // ones.
+  // ones, unless entries are moved one by one.
   void commit();
 
   // Gives back the reserved room after the disk was full, so that a few small files can still be written.
   void release_reserve();
-  // Moves the output so far to "<place>.incomplete", and leaves `place` alone. It returns the new place.
+  // Moves the output so far to "<place>.incomplete", and leaves the contents of `place` alone. If it cannot
+  // be moved, it stays where it is. The call returns where that is, and throws nothing.
   std::filesystem::path keep_incomplete();
 
  private:
@@ -40,9 +41,13 @@ class OutputFolder {
   std::filesystem::path place_, partial_;
   std::filesystem::path first_new_;  // uppermost folder above `partial_` that was made; empty for none
   FileLock lock_;                    // locks `partial_`
-  bool committed_ = false;
+  bool within_ = false;              // `partial_` is made within the place, which must stay where it is
+  bool settled_ = false;             // it stands where it stays
   Unfinished unfinished_;
 };
+
+// Names where an incomplete output is kept: beside its place, or within it.
+std::filesystem::path incomplete_place(const std::filesystem::path& place, bool within);
 
 // Tells if this partial folder holds a run that was not complete yet. If not, it has the former contents of
 // the place.
