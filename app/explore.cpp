@@ -20,6 +20,8 @@
 #include "app/visibility.h"
 #include "hwmodel/explore/explore_report.h"
 #include "hwmodel/memory/sheet.h"
+#include "hwmodel/pipeline/model/tiling.h"
+#include "hwmodel/pipeline/streams/memory_streams.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -70,6 +72,17 @@ std::vector<std::size_t> chosen_points(const explore::Answer& answer, std::size_
   return chosen;
 }
 
+// Every design lays out the same state, with its irradiance where that is brightest.
+void require_room(const explore::Question& question, const std::string& memory) {
+  if (!question.memory) return;
+  const hwmodel::Design design = hwmodel::design_of(question.parameters, question.grid, {});
+  const std::int64_t needed = hwmodel::stream_bytes(design, false), there = question.memory->bytes();
+  if (needed > there)
+    throw UsageError(
+        fmt::format("error: --memory {}: has {} bytes; the pipeline's state and irradiance take up to {}",
+                    memory, there, needed));
+}
+
 int run_explore(ExploreCommand command) {
   split_sets(command);
   const Common& common = command.common;
@@ -88,6 +101,7 @@ int run_explore(ExploreCommand command) {
   const step::Implementation& fast = find_implementation(common);
   run::Simulation ahead = run_ahead(scene, common, command.from, command.steps);
   question.grid = ahead.volume().grid;
+  require_room(question, command.memory);
   question.first_step = ahead.step_number();
   ahead.begin_step();  // computes the irradiance of the step
   question.irradiance = ahead.irradiance();
@@ -95,7 +109,6 @@ int run_explore(ExploreCommand command) {
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
-  if (!common.quiet) print_error("weighing designs\n");
   const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
   if (swept.points.empty())
     throw UsageError(

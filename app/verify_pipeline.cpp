@@ -39,6 +39,12 @@ std::string quiet_verdict(const hwmodel::VerifyReport& report) {
     return fmt::format("{} cells compared: no difference; digest {:016x}{}\n", report.compared_cells,
                        report.digest, report.strike ? "; the planted fault was NOT FOUND" : "");
   const hwmodel::Mismatch& m = *report.mismatch;
+  if (m.kind == hwmodel::Mismatch::Kind::hang)
+    return fmt::format("HANGS: {}, step {}; cell ({}, {}, {}) is waited for{}\n", m.where, m.step, m.x, m.y,
+                       m.z,
+                       !report.strike                 ? ""
+                       : report.found_where_planted() ? "; planted there"
+                                                      : "; planted ELSEWHERE");
   return fmt::format("DIFFERS ({}): {}, step {}, cell ({}, {}, {}), {} expected {}, is {}{}\n",
                      name_of(m.kind), m.where, m.step, m.x, m.y, m.z, m.field.empty() ? "value" : m.field,
                      m.expected, m.actual,

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 
 namespace voxmelt::hwmodel {
 namespace {
+
+constexpr std::string_view kPlain = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 // Makes a name that every viewer takes.
 std::string identifier(const std::string& text) {
@@ -17,7 +19,7 @@ std::string identifier(const std::string& text) {
     if (text.compare(i, 4, " -> ") == 0) {
       out += "_to_";
       i += 3;
-    } else if (std::isalnum(static_cast<unsigned char>(text[i])) != 0)
+    } else if (kPlain.find(text[i]) != std::string_view::npos)
       out += text[i];
     else if (!out.empty() && out.back() != '_')
       out += '_';

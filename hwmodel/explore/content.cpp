@@ -1,7 +1,7 @@
 #include "hwmodel/explore/content.h"
 
-#include <cstddef>
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace voxmelt::hwmodel::explore {

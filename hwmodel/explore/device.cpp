@@ -1,6 +1,7 @@
 #include "hwmodel/explore/device.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -55,6 +56,7 @@ std::vector<std::array<int, 2>> pairs(scene::Reader& from, const char* key) {
 }
 
 LogicCost logic(scene::Reader& from) {
+  from.knows(std::array{"lut", "ff", "source"});
   LogicCost cost;
   cost.lut = from.integer("lut", 0, kMost);
   cost.ff = from.integer("ff", 0, kMost);
@@ -72,6 +74,8 @@ LogicCost logic_of(scene::Reader& root, const char* key) {
 }
 
 void read_memories(scene::Reader& from, Family& f) {
+  from.knows(
+      std::array{"bram_parts", "bram_shapes", "uram_shapes", "lutram_words", "lutram_bits", "lutram_luts"});
   f.bram_parts = whole(from, "bram_parts", 1, 16);
   for (const auto& [bits, words] : pairs(from, "bram_shapes")) f.bram.push_back({bits, words});
   for (const auto& [bits, words] : pairs(from, "uram_shapes")) f.uram.push_back({bits, words});
@@ -140,6 +144,7 @@ Device load_device(const std::string& name, const std::vector<std::string>& over
   scene::Reader root(document, "");
   d.title = root.text("title", "");
   scene::Reader from = table_of(root, "device");
+  from.knows(std::array{"family", "lut", "ff", "dsp", "bram", "uram", "lutram", "clock", "fill"});
   const std::string family = from.text("family");
   for (std::size_t r = 0; r < kResources; ++r) d.amounts[r] = from.integer(kResourceNames[r], 0, kMost);
   d.lutram = from.integer("lutram", 0, kMost);

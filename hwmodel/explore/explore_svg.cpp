@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "hwmodel/explore/explore_report.h"
+#include "kernel/scene/text/ascii.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -141,7 +141,7 @@ std::string escaped(const std::string& text) {
 
 std::string name_of(std::size_t front) {
   std::string name(front_name(front));
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (char& c : name) c = scene::upper_case(c);
   return front < kResources ? name : "clock, MHz";
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "hwmodel/explore/explore_report.h"
+#include "kernel/scene/text/ascii.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -29,8 +29,7 @@ std::string design_of(const Point& p) {
 
 std::string unit_of(Resource r) {
   std::string name(kResourceNames[r]);
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(name.begin(), name.end(), name.begin(), scene::upper_case);
   return name;
 }
 

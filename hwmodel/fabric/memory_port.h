@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace voxmelt::hwmodel::memory {
 
@@ -41,6 +42,10 @@ class Memory {
 
   virtual bool cycle() = 0;       // ends a cycle of the machine; returns true if anything moved
   virtual bool idle() const = 0;  // every write is done, every reply is taken
+  // Returns true while a request is under way that will be done without anybody's help.
+  virtual bool works() const = 0;
+  // Throws if the memory has no `bytes`. `what` is to lie there.
+  virtual void require(std::int64_t bytes, std::string_view what) const = 0;
 
   virtual int most_bytes() const = 0;          // largest request
   virtual std::int64_t alignment() const = 0;  // bytes; a region of its own begins at a multiple

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint64_t kPeriod = 1000;    // period of the clock, in the kernel's units of time (1 ps)
 constexpr std::int64_t kPollEvery = 4096;  // cycles
+constexpr std::int64_t kLongestWait = 1'000'000'000;
 
 }  // namespace
 
@@ -27,8 +28,20 @@ void Part::rethrow() {
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
+// A memory that works for ever and gives nothing lets the machine hang, too.
+bool Part::is_waited_for() {
+  if (!waits || waited_ > kLongestWait || !waits()) return false;
+  waited_ += idle_;
+  idle_ = 0;
+  return true;
+}
+
 bool Part::ends() {
-  idle_ = moves == moves_before_ ? idle_ + 1 : 0;
+  if (moves != moves_before_)
+    idle_ = waited_ = 0;
+  else
+    ++idle_;
+  if (idle_ > hang_after) is_waited_for();
   moves_before_ = moves;
   end_ = {cycle() + 1, !error_ && done(), idle_ > hang_after};
   try {
@@ -83,7 +96,7 @@ std::int64_t Simulation::cycle() const { return own_->time_stamp().value() / kPe
 void Simulation::begin(Part& part) {
   part.works_ = true;
   part.stops_ = false;
-  part.idle_ = 0;
+  part.idle_ = part.waited_ = 0;
   part.moves_before_ = part.moves;
   part.end_ = {};
   part.first_cycle_ = ran_ ? cycle() + 1 : 0;

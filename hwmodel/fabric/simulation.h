@@ -41,7 +41,8 @@ class Part {
   std::function<void()> each_cycle;  // after each cycle of a job
   std::function<void()> poll;        // now and then; what it throws ends the job
   std::function<void()> ended;       // after a job; it may begin another one, from the next cycle on
-  std::int64_t hang_after = 1000;    // cycles in which nothing moves
+  std::function<bool()> waits;  // does something else, as a memory, still work for it? Then it does not hang
+  std::int64_t hang_after = 1000;  // cycles in which nothing moves
 
   std::int64_t moves = 0;  // moves of stages, and of whatever else shows that the machine does not hang
 
@@ -67,7 +68,9 @@ class Part {
 
   Simulation& simulation_;
   bool works_ = false, stops_ = false;
-  std::int64_t first_cycle_ = 0, moves_before_ = 0, idle_ = 0;
+  bool is_waited_for();
+
+  std::int64_t first_cycle_ = 0, moves_before_ = 0, idle_ = 0, waited_ = 0;
   End end_;
   std::exception_ptr error_;
 };

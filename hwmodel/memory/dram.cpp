@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+
+#include "kernel/scene/text/error.h"
 
 namespace voxmelt::hwmodel::memory {
 namespace {
@@ -132,6 +135,22 @@ bool Dram::idle() const {
   return std::all_of(ports_.begin(), ports_.end(),
                      [](const Port& port) { return port.inbox.empty() && port.reads.empty(); }) &&
          std::all_of(channels_.begin(), channels_.end(), [](const Controller& c) { return c.empty(); });
+}
+
+bool Dram::works() const {
+  const auto waits = [&](const Port& port) {
+    return !port.inbox.empty() || std::any_of(port.reads.begin(), port.reads.end(),
+                                              [&](const UnderWay& read) { return read.done > now_; });
+  };
+  return std::any_of(ports_.begin(), ports_.end(), waits) ||
+         std::any_of(channels_.begin(), channels_.end(), [](const Controller& c) { return !c.empty(); });
+}
+
+void Dram::require(std::int64_t bytes, std::string_view what) const {
+  if (bytes > parameters_.bytes())
+    throw scene::InputError("hw.memory: error: " + parameters_.name + " has " +
+                            std::to_string(parameters_.bytes()) + " bytes; " + std::string(what) + " take " +
+                            std::to_string(bytes));
 }
 
 Counts Dram::counts() const {

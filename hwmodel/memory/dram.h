@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/fabric/memory_port.h"
@@ -35,6 +36,8 @@ class Dram final : public Memory {
 
   bool cycle() override;
   bool idle() const override;
+  bool works() const override;
+  void require(std::int64_t bytes, std::string_view what) const override;  // throws scene::InputError
 
   int most_bytes() const override { return kBurst; }
   std::int64_t alignment() const override {  // one row of every bank

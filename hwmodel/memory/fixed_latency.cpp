@@ -77,6 +77,12 @@ void FixedLatency::serve(int port, const Request& request) {
   if (way.client != nullptr) way.client->performed(request);
 }
 
+bool FixedLatency::works() const {
+  return std::any_of(ports_.begin(), ports_.end(), [](const Port& port) { return !port.inbox.empty(); }) ||
+         std::any_of(ways_.begin(), ways_.end(),
+                     [&](const Way& way) { return !way.reads.empty() && way.reads.back().done > now_; });
+}
+
 bool FixedLatency::idle() const {
   return std::all_of(ports_.begin(), ports_.end(), [](const Port& port) { return port.inbox.empty(); }) &&
          std::all_of(ways_.begin(), ways_.end(), [](const Way& way) { return way.reads.empty(); });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/fabric/memory_port.h"
@@ -26,6 +27,8 @@ class FixedLatency final : public Memory {
   void take(int port) override;
   bool cycle() override;
   bool idle() const override;
+  bool works() const override;
+  void require(std::int64_t, std::string_view) const override {}  // it has no end
 
   int most_bytes() const override { return std::numeric_limits<int>::max(); }
   std::int64_t alignment() const override { return kBurst; }

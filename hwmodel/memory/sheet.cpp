@@ -21,6 +21,45 @@ int power_of_two(scene::Reader& from, const char* key, int high) {
   return value;
 }
 
+// All keys of [memory], which are so short that each looks like a misspelling of others.
+constexpr const char* kKeys[] = {"mhz",
+                                 "channels",
+                                 "ranks",
+                                 "groups",
+                                 "banks",
+                                 "rows",
+                                 "columns",
+                                 "width_bits",
+                                 "transfers",
+                                 "cl",
+                                 "cwl",
+                                 "read_more",
+                                 "write_more",
+                                 "rcd",
+                                 "rp",
+                                 "rp_all",
+                                 "ras",
+                                 "rc",
+                                 "ccd_s",
+                                 "ccd_l",
+                                 "rrd_s",
+                                 "rrd_l",
+                                 "faw",
+                                 "wr",
+                                 "wtr_s",
+                                 "wtr_l",
+                                 "rtp",
+                                 "read_to_write",
+                                 "rank_switch",
+                                 "rfc",
+                                 "refi",
+                                 "act_slots",
+                                 "column_slots",
+                                 "pre_slots",
+                                 "ref_slots",
+                                 "two_buses",
+                                 "interface_cycles"};
+
 void read_shape(scene::Reader& from, memory::Parameters& p) {
   p.channels = power_of_two(from, "channels", 64);
   p.ranks = power_of_two(from, "ranks", 8);
@@ -97,6 +136,7 @@ memory::Parameters load_memory(const std::string& name, const std::string& place
   p.title = root.text("title", "");
   std::optional<scene::Reader> from = root.table("memory");
   if (!from) root.fail("memory", ": the file has no such table");
+  from->knows(kKeys);
   p.mhz = static_cast<int>(from->integer("mhz", 1, 100000));
   read_shape(*from, p);
   read_cycles(*from, p);

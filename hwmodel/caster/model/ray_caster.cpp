@@ -67,8 +67,13 @@ struct RayCaster::Machine {
           const std::optional<Shares>& shares)
       : simulation(in), part(in), registers(r), memory(m), configuration(c) {
     if (!shares) own_memory.emplace(c.memory());
-    lines.emplace(m, shares ? shares->memory : own_memory->memory(), c.bus_bytes, shares ? shares->base : 0);
+    memory::Memory& served_by = shares ? shares->memory : own_memory->memory();
+    const std::int64_t base = shares ? shares->base : 0;
+    served_by.require(base + memory.frame + 2 * frame_bytes(r.camera.width, r.camera.height),
+                      "the picture's volumes and the picture");
+    lines.emplace(m, served_by, c.bus_bytes, base);
     part.hang_after = kHangAfter;
+    part.waits = [&served_by] { return served_by.works(); };
     part.done = [this] { return lines->counts().written_bytes == bytes_at_end; };
     part.ended = [this] { end_pass(); };
     const std::size_t count = c.pipes;

@@ -38,7 +38,8 @@ Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t c
   m.x = place.x;
   m.y = place.y;
   m.z = place.z;
-  m.detail = "full: " + (full.empty() ? "none" : full) + "\n  empty: " + (empty.empty() ? "none" : empty);
+  m.detail = "full, and who reads takes nothing: " + (full.empty() ? "none" : full) +
+             "\n  empty, and who reads waits: " + (empty.empty() ? "none" : empty);
   return m;
 }
 

@@ -41,13 +41,16 @@ std::string text_of(const Mismatch& m) {
   if (m.phase) place += fmt::format(", phase {}", name_of(m.phase));
   if (m.kind != software && m.kind != missing && m.kind != cycles)
     place += fmt::format(", cascade position {}, lane {}, cycle {}", m.cascade, m.lane, m.cycle);
+  if (m.kind == hang)
+    return fmt::format(
+        "the pipeline hangs: nothing moves any more at {}\n  {}\n  cell ({}, {}, {}) is waited for\n  {}\n",
+        m.where, place, m.x, m.y, m.z, m.detail);
   std::string text = fmt::format("first mismatch ({}): {}\n  {}\n", name_of(m.kind), m.where, place);
   if (m.kind == cycles)
     return text + fmt::format("  the pass took {} cycles, not the {} of the closed form; {}\n", m.actual,
                               m.expected, m.detail);
   text += fmt::format("  cell ({}, {}, {})", m.x, m.y, m.z);
   if (m.kind == width || m.kind == address) return text + ": " + m.detail + '\n';
-  if (m.kind == hang) return text + " is waited for\n  " + m.detail + '\n';
   text += fmt::format(": {} expected {} = {:#06x}, is {} = {:#06x}, bits that differ {:#06x}\n", m.field,
                       m.expected, m.expected, m.actual, m.actual, m.expected ^ m.actual);
   if (m.neighbourhood.empty()) return text;

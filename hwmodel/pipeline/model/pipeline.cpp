@@ -15,8 +15,6 @@ namespace voxmelt::hwmodel {
 namespace {
 
 constexpr std::int64_t kHangAfter = 1000;  // cycles in which no stage moves
-// Other machines may have asked the memory for much before, so a stage may wait for longer.
-constexpr std::int64_t kHangBesideOthers = 20000;
 
 }  // namespace
 
@@ -69,6 +67,7 @@ struct Pipeline::Machine {
 
   void make_blocks() {
     part.hang_after = kHangAfter;
+    part.waits = [this] { return dram != nullptr && dram->works(); };
     part.done = [this] { return writer.done() && (dram == nullptr || dram->settled()); };
     const auto add = [&](const std::string& name, std::function<void()> cycle) {
       blocks.push_back(std::make_unique<Block>(name.c_str(), simulation, part, std::move(cycle)));
@@ -179,7 +178,6 @@ Pipeline::Pipeline(const rule::Parameters& parameters, state::Grid grid, const C
       simulation_(simulation == nullptr ? *own_ : *simulation) {
   const Simulation::Scope scope(simulation_);
   machine_ = std::make_unique<Machine>(parameters, grid, configuration, make, simulation_);
-  if (simulation != nullptr) machine_->part.hang_after = kHangBesideOthers;
 }
 
 Pipeline::~Pipeline() {

@@ -40,6 +40,8 @@ class StreamMemory {
   virtual void cycle(std::int64_t now) = 0;  // once in every cycle of the machine
   // Returns true if the memory has all that was written. A train ends no sooner.
   virtual bool settled() const { return true; }
+  // Returns true while the memory works on a request, so that who waits for it does not hang.
+  virtual bool works() const { return false; }
 };
 
 }  // namespace voxmelt::hwmodel

@@ -73,6 +73,7 @@ void MemoryStreams::begin_train(const Train& train) {
     irradiance_at_.push_back(at);
     at += burst_bits(irradiance_bits_.back()) / 8;
   }
+  memory_->require(std::max(at, base_ + all), "the pipeline's state and irradiance");
   for (std::size_t t = 0; t < feeds_.size(); ++t) {
     feeds_[t] = {};
     feeds_[t].port = feed_ports_[t];

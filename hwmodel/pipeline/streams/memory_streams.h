@@ -55,6 +55,7 @@ class MemoryStreams final : public StreamMemory {
   // Returns true if a shared memory has been given all that was written, and all that was asked for has come.
   // So the next train finds nothing of this one under way.
   bool settled() const override;
+  bool works() const override { return memory_ != nullptr && memory_->works(); }
 
   memory::Counts counts() const { return own_->counts(); }  // for the last train, on a DRAM of its own
 
