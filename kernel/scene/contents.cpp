@@ -64,15 +64,18 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   if (elevation.missing > 0)
     warnings.push_back(fmt::format("{}: {} cells without data{} take the lowest elevation", file.string(),
                                    elevation.missing,
-                                   elevation.names_missing ? "" : " (-9999; no NODATA_value is named)"));
+                                   elevation.unnamed == 0 ? "" : " (-9999; no NODATA_value is named)"));
   warn_of_stretching(elevation, grid, file.string(), warnings);
+  const auto [lowest, tallest] = std::ranges::minmax(elevation.value);
   smooth(elevation, passes);
   std::vector<double> height = resample(elevation, grid.x, grid.z);
   for (double& h : height) h = base + scale * h;
   const double highest = *std::max_element(height.begin(), height.end());
   if (highest > grid.y)
-    reader.fail("vertical_scale", fmt::format(" = {} raises the terrain to {:.1f} cells, above the grid's {}",
-                                              scale, highest, grid.y));
+    reader.fail("vertical_scale",
+                fmt::format(" = {} raises the terrain to {:.1f} cells, above the grid's {}; its "
+                            "elevations are {:g} to {:g}",
+                            scale, highest, grid.y, lowest, tallest));
   raise(terrain, height);
   terrain.textured = true;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernel/scene/shape/geometry.h"
+#include "kernel/scene/text/ascii.h"
 #include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
@@ -54,8 +55,9 @@ Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback) {
   if (text.size() != 7 || text[0] != '#' ||
       text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
     reader.fail(key, " = \"" + text + "\": want \"#rrggbb\", or [r, g, b] from 0 to 1");
+  const auto digit = [](char c) { return is_digit(c) ? c - '0' : lower_case(c) - 'a' + 10; };
   Vec3 color{};
-  for (std::size_t i = 0; i < 3; ++i) color[i] = linear(std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16));
+  for (std::size_t i = 0; i < 3; ++i) color[i] = linear(16 * digit(text[1 + 2 * i]) + digit(text[2 + 2 * i]));
   return color;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <string>
 
 #include "kernel/scene/text/error.h"
@@ -14,6 +15,7 @@ namespace {
 // Returns the kernel's MemAvailable. Without it no grid is refused.
 std::uint64_t available_bytes() {
   std::ifstream file("/proc/meminfo");
+  file.imbue(std::locale::classic());
   std::string key, unit;
   std::uint64_t kibibytes = 0;
   while (file >> key >> kibibytes) {

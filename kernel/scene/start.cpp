@@ -97,7 +97,7 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
     if (row.optional && !std::filesystem::exists(file)) return;
     auto& column = volume.*row.column;
     if (row.optional) column = std::remove_reference_t<decltype(column)>(grid);
-    take(read_npy(file, row.bits > 8 ? 2 : 1, grid, place), grid, column, file, place);
+    take(read_npy(file, row.bits > 8 ? 65535 : 255, grid, place), grid, column, file, place);
   });
   if (const std::string broken = first_broken(volume); !broken.empty())
     fail_at(place, folder.string() + ": " + broken);

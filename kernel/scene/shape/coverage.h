@@ -12,6 +12,8 @@ namespace voxmelt::scene {
 
 inline constexpr int kSamplesPerAxis = 4;
 inline constexpr int kSamplesPerCell = 64;
+inline constexpr int kLeastSolid = kSamplesPerCell / 16;  // samples that make a cell solid, or liquid
+inline constexpr int kLeastInert = kSamplesPerCell / 2;
 
 // Is the part of a grid that a box touches: cells low .. low + size - 1, x fastest.
 struct Window {

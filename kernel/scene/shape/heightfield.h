@@ -14,6 +14,7 @@ struct Elevation {
   std::vector<double> value;
   long long missing = 0;          // cells without data, which were given the lowest elevation of the file
   bool names_missing = false;     // the file names the number that means "no data"; if not, it is -9999
+  long long unnamed = 0;          // cells of -9999 in such a file
   double cell_x = 1, cell_y = 1;  // size of a cell of the file, in any unit
 
   double at(int column, int row) const;  // clamped to the border

@@ -29,22 +29,10 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-// Returns the word in quotes. Control characters are spelt out, because the message of an exception ends at a
-// NUL byte.
-std::string quoted(std::string_view word) {
-  std::string text = "'";
-  for (const char c : word.substr(0, 40)) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += byte < ' ' ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return text + "'";
-}
-
-// Reads a number and nothing else. from_chars knows no sign +.
-template <class Number>
-std::optional<Number> number_in(std::string_view word) {
+// Reads the number of a vertex. from_chars knows no sign +.
+std::optional<std::int64_t> index_in(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  Number number{};
+  std::int64_t number{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return number;
@@ -56,11 +44,12 @@ class ObjReader {
   ObjReader(const std::string& file, const Place& place) : file_(file), place_(place) {}
 
   Mesh read(std::string_view text) {
+    line_end_ = line_end_of(text);
     while (!text.empty()) {
       std::string_view line = take_line(text);
       const std::string_view kind = take_word(line);
       if (kind == "v") vertex(line);
-      if (kind == "f") face(line);
+      if (kind == "f") face(line, text.empty());
     }
     if (mesh_.vertices.empty()) fail_at(place_, fmt::format("{}: the mesh has no vertices", file_));
     if (mesh_.ends.empty()) fail_at(place_, fmt::format("{}: the mesh has no faces", file_));
@@ -78,7 +67,7 @@ class ObjReader {
     joined_.clear();
     for (;;) {
       ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::size_t end = std::min(text.find(line_end_), text.size());
       std::string_view line = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));
       for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
@@ -95,9 +84,9 @@ class ObjReader {
   double coordinate(std::string_view& line) const {
     const std::string_view word = take_word(line);
     if (word.empty()) fail("a vertex needs 3 coordinates: is the file truncated?");
-    const std::optional<double> value = number_in<double>(word);
+    const std::optional<double> value = real_number_in(word);
     if (!value || !std::isfinite(*value) || std::abs(*value) > kLargestNumber)
-      fail(fmt::format("{} is not a coordinate", quoted(word)));
+      fail(fmt::format("{} is not a coordinate", in_quotes(word)));
     return *value;
   }
 
@@ -106,23 +95,30 @@ class ObjReader {
     mesh_.vertices.push_back({x, y, z});
   }
 
-  void face(std::string_view line) {
+  void face(std::string_view line, bool is_last) {
     const std::int64_t known = mesh_.vertices.size();
     int corners = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
-      const std::optional<std::int64_t> index = number_in<std::int64_t>(word.substr(0, word.find('/')));
-      if (!index) fail(fmt::format("{} is not a vertex of a face", quoted(word)));
+      const std::optional<std::int64_t> index = index_in(word.substr(0, word.find('/')));
+      if (!index) fail(fmt::format("{} is not a vertex of a face", in_quotes(word)));
       if (*index == 0 || *index > known || *index < -known)
         fail(fmt::format("a face names vertex {}, but {} vertices are known here", *index, known));
       mesh_.corners.push_back(static_cast<std::uint32_t>(*index > 0 ? *index - 1 : known + *index));
     }
-    if (corners < 3) fail(fmt::format("a face needs 3 corners, not {}: is the file truncated?", corners));
+    if (corners < 3 && is_last)
+      fail(fmt::format("a face needs 3 corners, not {}: is the file truncated?", corners));
+    if (corners < 3) {
+      mesh_.corners.resize(mesh_.corners.size() - corners);
+      ++mesh_.short_faces;
+      return;
+    }
     mesh_.ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
   }
 
   const std::string& file_;
   const Place& place_;
   std::int64_t line_ = 0;
+  char line_end_ = '\n';
   std::string joined_;  // lines joined into one
   Mesh mesh_;
 };

@@ -17,6 +17,7 @@ struct Mesh {
   std::vector<Point> vertices;
   std::vector<std::uint32_t> corners;  // corners of face after face: indices of vertices, all in range
   std::vector<std::uint32_t> ends;     // for each face the corner behind its last; a face has at least 3
+  std::size_t short_faces = 0;         // lines of the file that name fewer corners, and are no faces
 
   std::size_t faces() const { return ends.size(); }
   std::span<const std::uint32_t> face(std::size_t i) const {
@@ -38,8 +39,15 @@ inline constexpr double kLargestMeshCoordinate = 16384;
 // shell is a hole.
 enum class Inside { winding, parity };
 
+struct EdgeLength {
+  double all = 0;  // cells, within the grid; an edge of two faces counts twice
+  // Parts beside which no cell has the samples that make it solid, or inert.
+  double without_solid = 0, without_inert = 0;
+};
+
 struct MeshCoverage {
   Coverage coverage;
+  EdgeLength edges;
   std::vector<std::string> findings;  // oddities of the mesh, a line for each kind
 };
 

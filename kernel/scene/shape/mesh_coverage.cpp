@@ -2,6 +2,7 @@
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/mesh_layers.h"
 #include "kernel/scene/shape/mesh_shells.h"
+#include "kernel/scene/shape/mesh_thin.h"
 
 namespace voxmelt::scene {
 
@@ -15,6 +16,7 @@ MeshCoverage cover(const Mesh& mesh, Inside inside, state::Grid grid) {
   layers.run();
   if (inside == Inside::winding && layers.overlaps())
     result.findings.emplace_back("shells overlap, or one crosses itself: united");
+  result.edges = length_of_edges(mesh, result.coverage);
   return result;
 }
 

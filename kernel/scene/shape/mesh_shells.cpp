@@ -164,6 +164,7 @@ Surface surface_of(const Mesh& mesh, std::vector<std::string>& findings) {
   const auto find = [&](std::size_t n, const char* one, const char* many, const char* what) {
     if (n > 0) findings.push_back(count_of(n, one, many) + what);
   };
+  find(mesh.short_faces, "face", "faces", " of one or two corners: left out");
   const CleanMesh clean_mesh = clean(mesh);
   Shells shells(clean_mesh.mesh);
   shells.build();

@@ -13,9 +13,18 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr int kLeastSolid = kSamplesPerCell / 16;  // samples of 64
-constexpr int kLeastInert = kSamplesPerCell / 2;
+constexpr double kFewCells = 8, kSmallShare = 0.05;
 constexpr int kAmountPerSample = rule::kOne / kSamplesPerCell;
+
+// Warns of parts of a mesh that leave no cell. The tips of cones and the edges of wings are none.
+void warn_of_thin_parts(const Entry& entry, const EdgeLength& edges, std::vector<std::string>& warnings) {
+  const bool inert = entry.role == Role::inert;
+  const double vanished = inert ? edges.without_inert : edges.without_solid;
+  if (vanished < std::max(kFewCells, kSmallShare * edges.all)) return;
+  warnings.push_back(fmt::format(
+      "{}: parts thinner than {} a cell vanish, {:.0f} % of its edges; a larger height or scale keeps them",
+      entry.mesh_file, inert ? "half" : "a quarter of", 100 * vanished / edges.all));
+}
 
 Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& warnings) {
   Coverage coverage;
@@ -26,6 +35,7 @@ Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& w
     for (const std::string& finding : mesh.findings)
       warnings.push_back(fmt::format("{}: {}", entry.mesh_file, finding));
     coverage = std::move(mesh.coverage);
+    if (!entry.cut) warn_of_thin_parts(entry, mesh.edges, warnings);
   }
   if (std::all_of(coverage.samples.begin(), coverage.samples.end(),
                   [](std::uint8_t samples) { return samples == 0; }))

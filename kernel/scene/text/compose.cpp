@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <memory>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "kernel/scene/text/ascii.h"
 #include "kernel/scene/text/guard.h"
 
 namespace voxmelt::scene {
@@ -79,14 +80,13 @@ std::string shown(const std::string& assignment) {
 }
 
 bool is_key(const std::string& part) {
-  return !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
+    return is_digit(c) || is_letter(c) || c == '_' || c == '-';
   });
 }
 
 bool is_index(const std::string& part) {
-  return !part.empty() && part.size() <= 6 &&
-         std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return !part.empty() && part.size() <= 6 && std::all_of(part.begin(), part.end(), is_digit);
 }
 
 // Goes one step down the path, to the element or member `part`. It makes an empty table if a table lacks it.
@@ -94,7 +94,8 @@ Value& descend(Value& at, const std::string& part, const std::string& walked, co
   if (at.kind == Value::Kind::array) {
     if (!is_index(part))
       fail_at(place, fmt::format("{} is an array: its elements are {}.0, {}.1, ...", walked, walked, walked));
-    const std::size_t index = std::stoul(part);
+    std::size_t index = 0;
+    std::from_chars(part.data(), part.data() + part.size(), index);
     if (index >= at.items.size())
       fail_at(place,
               fmt::format("there is no {}.{}: {} has {} elements", walked, part, walked, at.items.size()));

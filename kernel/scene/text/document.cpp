@@ -4,10 +4,10 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <utility>
 
+#include "kernel/scene/text/ascii.h"
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/guard.h"
 #include "kernel/scene/text/text_file.h"
@@ -55,8 +55,8 @@ Value convert(const toml::node& node, const std::shared_ptr<const Origin>& origi
 }
 
 bool is_bare_word(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || c == '/';
   });
 }
 

@@ -61,7 +61,8 @@ const Value* Reader::find_or_fail(std::string_view key, bool required) {
   // If a key is missing, a misspelt one is the better message.
   for (std::size_t i = 0; i < table_->keys.size(); ++i) {
     const std::string& present = table_->keys[i];
-    if (std::find(asked_.begin(), asked_.end(), present) == asked_.end() && edit_distance(present, key) <= 2)
+    if (std::find(asked_.begin(), asked_.end(), present) == asked_.end() &&
+        std::find(known_.begin(), known_.end(), present) == known_.end() && edit_distance(present, key) <= 2)
       fail_unknown(i);
   }
   fail_at(table_->place, name(key) + " is missing");

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ namespace voxmelt::scene {
 class Reader {
  public:
   Reader(const Value& table, std::string path);
+
+  // Names keys that will be asked for, so that none of them is taken for a misspelling of another one.
+  void knows(std::span<const char* const> keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
 
   bool has(std::string_view key);
   Value::Kind kind(std::string_view key) const { return table_->find(key)->kind; }  // the key must be there
@@ -71,6 +75,7 @@ class Reader {
   const Value* table_;
   std::string path_;
   std::vector<std::string> asked_;
+  std::vector<std::string_view> known_;  // keys that will be asked for
 };
 
 // Checks one number: its type, that it is finite, and its range. `name` is its full path.

@@ -294,7 +294,10 @@ TEST_F(BadMesh, EmptyShell) {
   for (const auto& face :
        {std::array{8, 9, 10}, {8, 10, 11}, {8, 11, 9}, {9, 11, 10}})  // both diagonals of a square
     mesh.faces.push_back({face[0], face[1], face[2]});
-  expect(mesh, box_body({6, 6, 6}, {16, 12, 18}), {"m.obj: 2 shells", "m.obj: 1 shell without volume"});
+  expect(mesh, box_body({6, 6, 6}, {16, 12, 18}),
+         {"m.obj: 2 shells", "m.obj: 1 shell without volume",
+          "m.obj: parts thinner than a quarter of a cell vanish, 31 % of its edges; a larger height or scale "
+          "keeps them"});
 }
 
 // A shell that points inward within another one is a cavity. A shell within the cavity is matter again.
@@ -317,6 +320,55 @@ TEST_F(BadMesh, NestedShellsUniteOrAreHolesByParity) {
   expect(mesh, ball_body({16, 16, 16}, 13), {"m.obj: 2 shells", kOverlap});
   expect(mesh, ball_body({16, 16, 16}, 13) - box_body({10, 10, 10}, {12, 12, 12}), {"m.obj: 2 shells"},
          "inside = \"parity\"\n");
+}
+
+TEST_F(BadMesh, FacesOfOneOrTwoCornersAreLeftOut) {
+  MeshText mesh;
+  mesh.box({11, 11, 11}, {10, 10, 10});
+  const auto warnings = [&](const std::string& more) {
+    folder_.write("m.obj", mesh.text() + more);
+    return folder_
+        .load_text(
+            fmt::format("[grid]\nsize = [{0}, {0}, {0}]\n[[solid]]\nshape = \"mesh\"\nfile = \"m.obj\"\n"
+                        "height = 10\nat = [16, 11, 16]\n",
+                        kSide))
+        .warnings;
+  };
+  EXPECT_EQ(warnings("f 1 2\nf 3\nv 12 12 12\n"),
+            (Lines{"m.obj: 2 faces of one or two corners: left out", "m.obj: 1 vertex without a face"}));
+  EXPECT_EQ(warnings("v 1e-400 12 12\n"), Lines{"m.obj: 1 vertex without a face"})
+      << "too small a number is 0";
+  EXPECT_THROW(warnings("f 1 2"), InputError) << "at the end the file is truncated";
+}
+
+// The edges of a cube are 120 cells long, and those of the sail on it 72.4: two of 8 and two of 10 cells on
+// either side, and four across. Each belongs to two faces. The sail lies between two layers of samples. Its
+// lowest edges, and half a cell of the upright ones, lie beside the cube. So 50 of 192 cells leave nothing:
+// 26 %.
+TEST_F(BadMesh, ThinPartsThatVanishAreSaid) {
+  const auto warnings = [&](const char* role, double from, double thick) {
+    MeshText mesh;
+    mesh.box({11, 11, 11}, {10, 10, 10}).box({11, 21, from}, {10, 8, thick});
+    folder_.write("m.obj", mesh.text());
+    Lines found = folder_
+                      .load_text(fmt::format("[grid]\nsize = [{0}, {0}, {0}]\n[[{1}]]\nshape = \"mesh\"\n"
+                                             "file = \"m.obj\"\nheight = 18\nat = [16, 11, 16]\n"
+                                             "[[solid]]\nshape = \"box\"\nsize = [2, 2, 2]\nat = [2, 2, 2]\n",
+                                             kSide, role))
+                      .warnings;
+    std::erase(found, "m.obj: 2 shells");
+    return found;
+  };
+  const Lines thin = warnings("solid", 15.4, 0.1);
+  ASSERT_EQ(thin.size(), 1u);
+  EXPECT_EQ(thin[0],
+            "m.obj: parts thinner than a quarter of a cell vanish, 26 % of its edges; a larger height or "
+            "scale keeps them");
+  EXPECT_EQ(warnings("solid", 15.3, 0.3), Lines{}) << "a layer of samples lies in it: 16 of 64";
+  const Lines wall = warnings("inert", 15.3, 0.3);
+  ASSERT_EQ(wall.size(), 1u) << "an inert cell needs half of its samples";
+  EXPECT_NE(wall[0].find("parts thinner than half a cell vanish"), std::string::npos) << wall[0];
+  EXPECT_EQ(warnings("inert", 15.1, 0.8), Lines{});
 }
 
 }  // namespace

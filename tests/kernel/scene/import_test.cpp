@@ -1,4 +1,5 @@
 // Meshes, height fields and exported fields are imported, and bad ones are refused.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -233,6 +234,19 @@ TEST(Heightfield, WhatWritersWriteIsRead) {
   }
   EXPECT_EQ(values(sides + "NODATA_value -3\n5 7.5\n-3 0.25\n"), (std::vector<double>{5, 7.5, 0.25, 0.25}));
   EXPECT_EQ(values(sides + "nan 7.5\n-3 0.25\n"), (std::vector<double>{-3, 7.5, -3, 0.25}));
+  // Kinds of no number, notes and comments, and line ends, as found in public files.
+  for (const char* word : {"NA", "-1.#IND", "1.#QNAN", "+nan", "-nan(ind)", "NAN"})
+    EXPECT_EQ(values(sides + "5 " + word + "\n-3 0.25\n"), lowest) << word;
+  EXPECT_EQ(values(sides + "nodata_value -inf\n5 -inf\n-3 0.25\n"), lowest);
+  EXPECT_EQ(values(sides + "nodata_value -1.79769313486232e+308\n5 -1.79769313486232e+308\n-3 0.25\n"),
+            lowest);
+  EXPECT_EQ(values(sides + "nodata_value -3.4e+38\n5 -3.3999999521443642e+38\n-3 0.25\n"), lowest);
+  EXPECT_EQ(values(sides + "5 1e-400\n-3 0.25\n"), (std::vector<double>{5, 0, -3, 0.25}));
+  for (const std::string& grid :
+       {"# a map\n" + sides + "# of heights\n5 7.5\n#\n-3 0.25\n",
+        sides + "5 7.5\n-3 0.25\nPROJECTION LATLONG\nNOTES 1 2 3\n",
+        std::string("ncols 2\rnrows 2\r5 7.5\r-3 0.25\r"), sides + "5 7.5\n-3 0.25\n" + std::string(9, '\0')})
+    EXPECT_EQ(values(grid), whole) << grid;
   // The usual number means nothing if the file names another one.
   EXPECT_EQ(values(sides + "NODATA_value 0\n5 -9999\n-3 0.25\n"), (std::vector<double>{5, -9999, -3, 0.25}));
 }
@@ -281,6 +295,23 @@ TEST(Heightfield, BadFilesAreRefusedWithTheirLine) {
   EXPECT_EQ(
       error("ncols 2\nnrows 2\n1 1e20\n3 4\n"),
       place + ":3: '1e20' is no elevation; where it means that there is none, NODATA_value must name it");
+  EXPECT_EQ(
+      error("ncols 2\nnrows 2\n1 1e999\n3 4\n"),
+      place + ":3: '1e999' is no elevation; where it means that there is none, NODATA_value must name it");
+  EXPECT_EQ(error("ncols 2\nnrows 2\ndx 1e999\n1 2\n3 4\n"), place + ":3: '1e999' is not a number");
+  EXPECT_EQ(
+      error("2 ncols\n2 nrows\n1 2\n3 4\n"),
+      place + ":1: '2' stands before 'ncols', which it belongs to: a key comes first, and then its value");
+  EXPECT_EQ(error("DSAA\n2 2\n"),
+            place + ":1: this is a grid of Surfer; `gdal_translate -of AAIGrid` converts it");
+  EXPECT_EQ(error("north: 4\nsouth: 0\n"),
+            place + ":1: this is a grid of GRASS; `gdal_translate -of AAIGrid` converts it");
+  EXPECT_EQ(error("version https://git-lfs.github.com/spec/v1\n"),
+            place + ": this is a pointer of Git LFS; `git lfs pull` brings the file");
+  EXPECT_EQ(error("PK\3\4..."), place + ": this is a packed file; unpack it first");
+  EXPECT_EQ(error("ncols 2\nnrows 2\n1 \x01x\n3 4\n"), place + ":3: '\\x01x' is not a number");
+  EXPECT_EQ(error(std::string("n\0c\0", 4)),
+            place + ": this is UTF-16; write the file as plain text or UTF-8");
   EXPECT_EQ(error(std::string("\xff\xfen\0c\0", 6)),
             place + ": this is UTF-16; write the file as plain text or UTF-8");
   EXPECT_EQ(error("ncols 2\nnrows 2\nnodata_value 1\n1 1\n1 1\n"), place + ":5: every cell is without data");
@@ -302,6 +333,15 @@ class Fields {
     header += std::string(118 - header.size() - 1, ' ') + "\n";
     folder_.write("fields/" + field + ".npy", std::string("\x93NUMPY\x01\x00", 8) +
                                                   static_cast<char>(header.size()) + '\0' + header + data);
+  }
+  // Writes another header: its version, and the whole dictionary.
+  void write_headed(const std::string& field, char version, std::string header,
+                    const std::string& data) const {
+    header += std::string(119 - header.size(), ' ') + "\n";
+    std::string length{static_cast<char>(header.size()), '\0'};
+    if (version > 1) length += std::string(2, '\0');
+    folder_.write("fields/" + field + ".npy",
+                  "\x93NUMPY" + std::string{version, '\0'} + length + header + data);
   }
   void remove(const std::string& field) const {
     std::filesystem::remove(folder_.path() / "fields" / (field + ".npy"));
@@ -378,6 +418,64 @@ TEST(Start, WhatIsDroppedIsSaid) {
   EXPECT_EQ(folder.load_text(kStartScene + "[heat]\ngamma = 0.1\n").warnings, Lines{});
 }
 
+// The cell (x, y, z) = (1, 0, 0) alone is liquid and full: 4096 is 0x1000. NumPy's description of its format
+// has versions, types and orders.
+TEST(Start, ArraysAreReadAsNumpyWritesThem) {
+  const SceneFolder folder;
+  const Fields fields(folder);
+  const auto digest_of = [&](const std::string& liquid, const std::string& amount, char version = 1,
+                             const char* order = "False", char quote = '\'') {
+    const auto dictionary = [&](const char* type) {
+      std::string text = std::string("{\"descr\": \"") + type + "\", \"fortran_order\": " + order +
+                         ", \"shape\": (2, 2, 2), }";
+      std::ranges::replace(text, '"', quote);
+      return text;
+    };
+    const std::size_t split = liquid.find(':'), other = amount.find(':');
+    fields.write_headed("liquid", version, dictionary(liquid.substr(0, split).c_str()),
+                        liquid.substr(split + 1));
+    fields.write_headed("amount", version, dictionary(amount.substr(0, other).c_str()),
+                        amount.substr(other + 1));
+    const scene::Scene scene = folder.load_text(kStartScene);
+    EXPECT_TRUE(scene.initial.liquid.test(1, 0, 0));
+    EXPECT_EQ(scene.initial.liquid.count(), 1);
+    EXPECT_EQ(scene.initial.amount[scene.initial.at(1, 0, 0)], 4096);
+  };
+  // The element at `at` of eight, each of `bytes`, is `value`.
+  const auto data = [](std::size_t at, const std::string& value) {
+    std::string all(8 * value.size(), '\0');
+    return all.replace(at * value.size(), value.size(), value);
+  };
+  const std::string one(1, '\1'), little("\0\x10", 2), big("\x10\0", 2), wide("\0\x10\0\0\0\0\0\0", 8),
+      wide_big("\0\0\0\0\0\0\x10\0", 8);
+  digest_of("|u1:" + data(1, one), "<u2:" + data(1, little));
+  digest_of("|b1:" + data(1, one), ">u2:" + data(1, big));
+  digest_of("|i1:" + data(1, one), "<i8:" + data(1, wide));
+  digest_of("|b1:" + data(1, one), ">i8:" + data(1, wide_big));
+  digest_of("|b1:" + data(1, one), "<u2:" + data(1, little), 2);
+  digest_of("|b1:" + data(1, one), "<u2:" + data(1, little), 3, "False", '"');
+  digest_of("|b1:" + data(4, one), "<u2:" + data(4, little), 1, "True");  // z runs fastest
+}
+
+TEST(Start, NumbersThatNoFieldHoldsAreRefused) {
+  const SceneFolder folder;
+  const Fields fields(folder);
+  const std::string place = "scene.toml:4:10: error: fields/amount.npy: ";
+  const auto error = [&](const char* type, const std::string& data, char version = 1) {
+    fields.write_headed(
+        "amount", version,
+        std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (2, 2, 2), }", data);
+    return folder.error_of(kStartScene);
+  };
+  EXPECT_EQ(error("<i2", std::string(10, '\0') + "\xff\xff" + std::string(4, '\0')),
+            place + "[1][0][1] = -1 is outside 0..65535");
+  EXPECT_EQ(error("<u4", std::string(2, '\0') + '\1' + std::string(29, '\0')),
+            place + "[0][0][0] = 65536 is outside 0..65535");
+  EXPECT_EQ(error("<u8", std::string(64, '\xff')),
+            place + "[0][0][0] = 9223372036854775807 is outside 0..65535");
+  EXPECT_EQ(error("<u2", std::string(16, '\0'), 4), place + "npy format 4.0 is not known");
+}
+
 TEST(Start, BadFieldsAreRefused) {
   const SceneFolder folder;
   const Fields good(folder);
@@ -391,7 +489,8 @@ TEST(Start, BadFieldsAreRefused) {
   };
   EXPECT_EQ(error("solid", "|u1", std::string(8, '\2')),
             place + "/solid.npy: cell (0, 0, 0) is 2, not 0 or 1");
-  EXPECT_EQ(error("solid", "<f8", std::string(64, '\0')), place + "/solid.npy: type '<f8' instead of '|u1'");
+  EXPECT_EQ(error("solid", "<f8", std::string(64, '\0')),
+            place + "/solid.npy: type <f8: the numbers must be whole, as in array.astype(numpy.uint8)");
   EXPECT_EQ(error("amount", "<u2", std::string(16, '\0'), "(2, 4, 1)"),
             place + "/amount.npy: shape (2,4,1) instead of (2,2,2) (z, y, x of grid.size)");
   EXPECT_EQ(error("amount", "<u2", std::string(15, '\0')),

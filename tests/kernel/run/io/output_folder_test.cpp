@@ -82,6 +82,40 @@ TEST_F(OutputFolders, WhatADeadProcessLeftIsRemoved) {
       true);
 }
 
+// A process dies while it moves entries, after each of its steps. The next one completes the move.
+TEST_F(OutputFolders, AMoveThatBrokeOffIsCompleted) {
+  make("old");
+  const fs::path fresh = folder_ / "out.partial-abcdef";
+  const auto prepare = [&] {
+    fs::remove_all(folder_);
+    make("old");
+    write_file(place_ / "gone", "old");  // the new contents do not have it
+    fs::create_directories(fresh);
+    write_file(fresh / "a", "new");
+    write_file(fresh / ".voxmelt-output", "a\n");
+  };
+  const auto complete = [&] {
+    clear_leavings(place_);
+    EXPECT_EQ(read("out/a"), "new");
+    EXPECT_EQ(read("out/.voxmelt-output"), "a\n");
+    EXPECT_FALSE(fs::exists(place_ / "gone"));
+    EXPECT_EQ(names(), std::set<std::string>{"out"});
+  };
+  prepare();
+  fs::create_directory(fresh / ".voxmelt-old");
+  complete();
+  prepare();
+  fs::create_directory(fresh / ".voxmelt-old");
+  fs::rename(place_ / "a", fresh / ".voxmelt-old/a");
+  complete();
+  prepare();
+  fs::rename(place_, fresh / ".voxmelt-old");
+  fs::create_directory(place_);
+  write_file(fresh / ".voxmelt-moving", "");
+  fs::rename(fresh / "a", place_ / "a");
+  complete();
+}
+
 TEST_F(OutputFolders, ALivingProcessIsNotDisturbed) {
   make("1");
   with_another_process(
