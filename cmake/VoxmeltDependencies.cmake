@@ -1,13 +1,10 @@
 # Third-party libraries, all from Debian 12's packages (cmake/install-dependencies.sh installs them). Their headers
 # are system headers, because our warnings are for our code.
-find_package(PkgConfig REQUIRED)
 find_package(PNG REQUIRED)
 find_package(fmt REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
-find_package(benchmark REQUIRED)
 
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)
 add_library(voxmelt_toml INTERFACE)
@@ -23,7 +20,15 @@ find_library(ZSTD_LIBRARY zstd REQUIRED)
 find_path(XXHASH_INCLUDE xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 
+# The library needs nothing of what follows.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+find_package(CLI11 REQUIRED)
+find_package(benchmark REQUIRED)
+
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
+find_package(PkgConfig REQUIRED)
 pkg_check_modules(SYSTEMC REQUIRED systemc)
 add_library(voxmelt_systemc INTERFACE)
 target_include_directories(voxmelt_systemc SYSTEM INTERFACE ${SYSTEMC_INCLUDE_DIRS})

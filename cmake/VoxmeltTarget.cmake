@@ -2,6 +2,9 @@
 # Headers are included by their path from the top of the house: "kernel/automaton/rule/spread.h".
 add_library(voxmelt_options INTERFACE)
 target_include_directories(voxmelt_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Plugins and modules of other languages link the library, so its code may lie anywhere. All code is compiled alike,
+# because it shares precompiled headers. Nobody replaces our functions from outside, so they are inlined as ever.
+target_compile_options(voxmelt_options INTERFACE -fPIC -fno-semantic-interposition)
 option(VOXMELT_WARNINGS "Warn, and take warnings for errors" ON)
 if(VOXMELT_WARNINGS)
   target_compile_options(voxmelt_options INTERFACE

@@ -7,7 +7,7 @@ packages=(cmake ninja-build g++ pkg-config libpng-dev libdeflate-dev libzstd-dev
           libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxsimd-dev libbenchmark-dev libsystemc-dev)
 if [ "$(dpkg --print-architecture)" = amd64 ]; then packages+=(libembree-dev); fi
 if [ "${1:-build}" = test ]; then
-  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 valgrind)
+  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 strace valgrind)
 fi
 
 missing=()

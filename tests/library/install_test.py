@@ -4,6 +4,7 @@ projects outside the tree build against the library, with g++ and with clang++.
 
   install_test.py ROOT BUILD
 """
+import ctypes
 import json
 import os
 import shutil
@@ -70,10 +71,31 @@ class Install(unittest.TestCase):
         for compiler in ("g++", "clang++"):
             if shutil.which(compiler) is None:
                 continue
-            consumer = self.build(root / "tests/consumer", compiler) / "consumer"
+            place = self.build(root / "tests/consumer", compiler)
+            consumer, plugin = place / "consumer", ctypes.CDLL(str(place / "libplugin.so"))
+            plugin.digest_of.restype = ctypes.c_uint64
+            scene = self.prefix / "share/voxmelt/scenes/bunny_small.toml"
+            self.assertEqual(f"{plugin.digest_of(os.fsencode(scene), 10):016x}", APPROVED["bunny_small"]["10"].split()[3], "as a module")
+            self.assertEqual(plugin.digest_of(b"nowhere.toml", 10), 0)
             for scene in ("bunny_small", "lesson_tubes"):
                 line = output(consumer, scene, 10, cwd=self.folder).strip()
                 self.assertEqual(line, APPROVED[scene]["10"], compiler)
+
+    # It is configured, not built. Targets of the same names as ours in other rooms stand beside it.
+    def test_a_project_that_takes_the_tree_in_gets_the_library_alone(self):
+        source, place = self.folder / "outer", self.folder / "outer-build"
+        source.mkdir()
+        (source / "main.cpp").write_text("int main() {}\n")
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(outer LANGUAGES CXX)\nenable_testing()\n"
+            "foreach(name voxmelt measure bench_measure accuracy library_test)\n  add_executable(${name} main.cpp)\nendforeach()\n"
+            f'add_subdirectory("{root}" inner)\nadd_executable(outer main.cpp)\ntarget_link_libraries(outer PRIVATE voxmelt::voxmelt)\n')
+        output("cmake", "-S", source, "-B", place, "-G", "Ninja", cwd=self.folder)
+        self.assertIn("Total Tests: 0", output("ctest", "--test-dir", place, "-N", cwd=self.folder))
+        targets = output("ninja", "-C", place, "-t", "targets", "all", cwd=self.folder)
+        self.assertIn("inner/library/libvoxmelt.a: CXX_STATIC_LIBRARY_LINKER", targets)
+        for room in ("hwmodel", "app", "bench", "tests", "measure", "accuracy", "report"):
+            self.assertNotIn(f"inner/{room}/", targets)
 
     def test_the_examples_build_against_it(self):
         melt = self.build(root / "examples", "g++") / "melt"

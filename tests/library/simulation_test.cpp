@@ -7,6 +7,7 @@
 #include <ios>
 #include <iterator>
 #include <limits>
+#include <locale>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -44,6 +45,36 @@ TEST_F(Library, HasTheApprovedDigestsAndCounts) {
       EXPECT_EQ(line.data(), approved.at(scene).at("10").get<std::string>()) << one.name;
       EXPECT_TRUE(simulation.ledgers().balance());
     }
+}
+
+// Writes 1.234,5 where the classic locale writes 1234.5.
+class CommasAndPoints : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+// The program around the library has a locale of its own. The scene has a mesh, or a height field with
+// decimals.
+TEST_F(Library, NoLocaleChangesWhatItReadsAndWrites) {
+  const auto outcome = [&](const char* scene) {
+    Simulation simulation(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(scene) + ".toml"));
+    simulation.step(5);
+    const std::filesystem::path exported = "locale_test_export";
+    simulation.export_state(exported, "vti");
+    std::ifstream vti(exported / "volume.vti", std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(vti), {}};
+    std::filesystem::remove_all(exported);
+    return std::pair(simulation.digest(), bytes);
+  };
+  for (const char* scene : {"bunny_small", "lava"}) {
+    const auto classic = outcome(scene);
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommasAndPoints));
+    const auto other = outcome(scene);
+    std::locale::global(before);
+    EXPECT_EQ(other.first, classic.first) << scene;
+    EXPECT_TRUE(other.second == classic.second) << scene;
+  }
 }
 
 // The digest of section 13 of docs/automaton.md follows from the views alone: their values, their order,
