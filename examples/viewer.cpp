@@ -1,6 +1,5 @@
-// The example is the heart of a viewer, without a window. It draws frames from a camera that moves, and runs
-// steps until somebody stops them. It tells what lies under the pointer, and saves the run so that it can go
-// on later.
+// The example is the heart of a viewer, without a window. It draws frames from a camera that moves, steps
+// until somebody stops it, tells what lies under the pointer, and saves the run.
 //   viewer SCENE.toml FRAMES > frames.ppm
 #include <voxmelt/voxmelt.h>
 #include <cstddef>

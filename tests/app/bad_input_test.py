@@ -86,7 +86,7 @@ ARGUMENTS = [
     *[([*command, long], f"{long}: error: {why}", 2) for long in ("n" * 300, "a/" + "n" * 300, "n" * 300 + "/a")
       for command, why in ((["run", "scene.toml", "--out"], ""), (["export", "scene.toml", "--out"], ""),
                            (["render", "scene.toml", "--turntable", "2", "--out"], ""),
-                           (["render", "scene.toml", "--out"], "cannot be written: "),
+                           (["render", "scene.toml", "--out"], "" if long.startswith("nnn") and "/" not in long else "there is no folder"),
                            (["run", "--resume"], ""), (["info"], "there is no such file"))],
     (["render", "scene.toml", "--turntable", "2", "--out", "picture.png"],
      "--out picture.png: error: --turntable writes its views into a folder", 2),
@@ -244,13 +244,14 @@ class BadInput(unittest.TestCase):
         write(self.folder, filled + "\n")
         self.refused(["digest", "scene.toml", "--steps", 0], "larger than 16777216 bytes", 2)
 
+    # x and z change places, and the body in the middle stays.
     def test_fields_whose_numbers_lie_the_other_way_round(self):
         write(self.folder, SMALL)
         self.assertEqual(voxmelt("export", "scene.toml", "--steps", 0, "--out", "at0", cwd=self.folder).returncode, 0)
         write(self.folder, SMALL + '[start]\nfields = "at0"\n', "from.toml")
         file = self.folder / "at0/amount.npy"
         file.write_bytes(file.read_bytes().replace(b"'fortran_order': False", b"'fortran_order': True "))
-        self.refused(["digest", "from.toml"], "at0/amount.npy: not in C order", 2)
+        self.assertEqual(voxmelt("digest", "from.toml", "--steps", 0, cwd=self.folder).stdout, voxmelt("digest", "scene.toml", "--steps", 0, cwd=self.folder).stdout)
 
     # What has a whole path is written all the same.
     def test_a_current_folder_that_was_removed(self):

@@ -27,7 +27,8 @@ def report_of(folder):
 
 
 def outcome(folder):
-    files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*")
+             if p.is_file() and p.name != "last.vxc"}  # it says who ran, and for how long
     del files["report.json"]
     return files, report_of(folder)
 
@@ -86,7 +87,7 @@ class Checkpoints(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(outcome(kept), outcome(self.folder / "whole"))
         again = voxmelt("run", "--resume", "ended", cwd=self.folder)
-        self.assertEqual((again.returncode, again.stdout), (0, "the run in ended is complete\n"))
+        self.assertEqual((again.returncode, again.stdout), (0, "the run in ended is complete; --steps +N goes on\n"))
 
     def test_a_killed_run_is_found_by_its_name_and_kept_from_others(self):
         partial = self.begin_and_end("died", signal.SIGKILL)
@@ -110,10 +111,29 @@ class Checkpoints(unittest.TestCase):
         for key in set(expected) - {"implementation", "implementation_reason", "threads", "visibility"}:
             self.assertEqual(report[key], expected[key], key)
 
+    # The frame of the former last step is one of the longer run, or it is not.
+    def test_a_complete_run_goes_on_with_more_steps(self):
+        def run(out, *arguments):
+            result = voxmelt("run", *arguments, "--quiet", cwd=self.folder)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            return outcome(self.folder / out)
+        short = ("--frame-every", "3", "--size", "64x48")
+        for first, more, last in (("7", "+5", "12"), ("6", "12", "12"), ("6", "+0", "6"), ("0", "+4", "4")):
+            with self.subTest(first=first, more=more):
+                wanted = run("straight", self.scene, "--out", "straight", "--steps", last, *short)
+                run("longer", self.scene, "--out", "longer", "--steps", first, *short)
+                self.assertEqual(run("longer", "--resume", "longer", "--steps", more), wanted)
+        self.refused("run", "--resume", "longer", "--steps", "3", names="--steps 3: error: step 4 of this run is done already")
+        self.refused("run", "--resume", "longer", "--steps", "+4294967295", names="step numbers end at 4294967295")
+        self.refused("run", self.scene, "--steps", "+3", names="--steps +3: error: + goes on with a run of --resume")
+        self.assertEqual(voxmelt("info", "longer/last.vxc", cwd=self.folder).returncode, 0)
+        (self.folder / "longer/last.vxc").unlink()
+        self.refused("run", "--resume", "longer", "--steps", "+3", names="the run is complete, and its last state is not there")
+
     def test_nothing_to_resume(self):
         self.refused("run", "--resume", "nowhere", names="there is no checkpoint in it")
         self.refused("run", "--resume", "kept", self.scene, names="--resume")
-        self.refused("run", "--resume", "kept", "--steps", "9", names="--resume")
+        self.refused("run", "--resume", "kept", "--steps", "9", names=f"--steps 9: error: step {self.step} of this run is done already")
         self.refused("run", "--resume", "kept", "--set", "heat.gamma=0.1", names="--resume")
         self.refused("run", names="a scene, or --resume FOLDER")
         for every in ("0", "s", "0s", "-3", "1.5", "10m", ""):

@@ -34,7 +34,7 @@ power = 9
 width = 64
 height = 64
 """
-WORDS = {"SCENE": "scene.toml", "FILE": "last.checkpoint", "out/NAME": "out/bunny", "NAME": "out/bunny", "DIR": "dir", "N": "2", "X,Y": "20,9"}
+WORDS = {"SCENE": "scene.toml", "FILE": "last.checkpoint", "out/NAME": "out/bunny", "DIR/scene.toml": "exported/scene.toml", "NAME": "out/bunny", "DIR": "dir", "N": "2", "X,Y": "20,9"}
 TAKES_LONG = re.compile(r"voxmelt (bench|accuracy)\b")
 # Of commands that differ, or stop, on purpose.
 OTHER_CODES = {"--plant": (0, 1)}
@@ -69,7 +69,7 @@ def filled(command):
 class Reader:
     """Who tries commands in a folder of their own, where a scene, a finished run and a checkpoint are."""
 
-    def __init__(self, program, folder, whole):
+    def __init__(self, program, root, folder, whole):
         self.folder, self.whole = Path(folder), whole
         (self.folder / "bin").mkdir()
         (self.folder / "bin/voxmelt").symlink_to(program)
@@ -77,6 +77,8 @@ class Reader:
         (self.folder / "scene.toml").write_text(SCENE)
         self.must("voxmelt run scene.toml --out out/bunny --quiet")
         self.must("voxmelt run scene.toml --out out/long --quiet")
+        self.must("voxmelt export scene.toml --out exported --quiet")
+        (self.folder / "hwmodel").symlink_to(root / "hwmodel")
         run = subprocess.Popen(["voxmelt", "run", "scene.toml", "--steps", "4000000", "--frame-every", "0", "--out", "out/stopped", "--quiet"],
                                cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)
         while not list(self.folder.glob("out/stopped.partial-*/frames")):
@@ -154,7 +156,7 @@ def main():
     shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True)
     known = {test["name"] for test in json.loads(shown.stdout)["tests"]}
     with tempfile.TemporaryDirectory() as folder:
-        reader = Reader(program, folder, "--whole" in sys.argv)
+        reader = Reader(program, root, folder, "--whole" in sys.argv)
         found, counts = offences(root, reader, known)
         for planted in ("voxmelt run SCENE --stepz 3", "voxmelt run --shrink", "voxmelt verify nowhere --steps 2"):
             if reader.offence(planted, 60) is None:

@@ -16,6 +16,12 @@ std::atomic<long> room{[] {
   return bytes != nullptr ? std::atol(bytes) : 0;
 }()};
 
+// The disk says this, as errno; without FULL_DISK_ERROR that it has no space.
+const int error = [] {
+  const char* number = std::getenv("FULL_DISK_ERROR");
+  return number != nullptr ? std::atoi(number) : ENOSPC;
+}();
+
 template <class Function>
 Function* original(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -27,7 +33,7 @@ extern "C" std::size_t fwrite(const void* from, std::size_t size, std::size_t co
   static const auto real = original<std::size_t(const void*, std::size_t, std::size_t, std::FILE*)>("fwrite");
   if (to != stdout && to != stderr && (room -= static_cast<long>(size * count)) < 0) {
     room += static_cast<long>(size * count);
-    errno = ENOSPC;
+    errno = error;
     return 0;
   }
   return real(from, size, count, to);

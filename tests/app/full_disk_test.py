@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The disk is full after so many bytes (tests/app/full_disk.cpp): what is complete is kept, what was there stays."""
+import errno
 import json
 import os
 import shutil
@@ -23,10 +24,35 @@ class FullDisk(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def with_room(self, room, *arguments):
+    def with_room(self, room, *arguments, error=errno.ENOSPC):
         # without ffmpeg: a film is written by another process
-        env = dict(os.environ, LD_PRELOAD=DISK, FULL_DISK_BYTES=str(RESERVE + room), PATH="/nowhere")
+        env = dict(os.environ, LD_PRELOAD=DISK, FULL_DISK_BYTES=str(RESERVE + room), FULL_DISK_ERROR=str(error), PATH="/nowhere")
         return voxmelt(*arguments, cwd=self.folder, env=env)
+
+    # A disk that breaks, a file that may grow no more, a handle that has become stale: frames that are whole stay.
+    def test_other_errors_keep_what_is_made(self):
+        self.assertEqual(voxmelt("run", self.scene, "--steps", 2, cwd=self.folder).returncode, 0)
+        old = {p: p.read_bytes() for p in (self.folder / "out/scene").rglob("*") if p.is_file()}
+        run = ["run", self.scene, "--steps", 40, "--frame-every", 2, "--size", "160x120", "--quiet"]
+        for number in (errno.EIO, errno.EFBIG, errno.ESTALE):
+            with self.subTest(os.strerror(number)):
+                result = self.with_room(60000, *run, error=number)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertIn(f"{os.strerror(number)}; the run ended after step", result.stderr)
+                self.assertIn("is kept in out/scene.incomplete/", result.stderr)
+                self.assertGreater(len(list((self.folder / "out/scene.incomplete/frames").glob("*.png"))), 2)
+                self.assertEqual({p: p.read_bytes() for p in old}, old, "the old output is as it was")
+        result = self.with_room(-RESERVE, *run, error=errno.EIO)
+        self.assertEqual(result.returncode, 2)
+        self.assertNotIn("kept", result.stderr, "no frame was whole")
+
+    def test_views_of_a_turntable_are_kept(self):
+        views = ["render", self.scene, "--turntable", 12, "--size", "160x120", "--out", "views", "--quiet"]
+        result = self.with_room(30000, *views, error=errno.EIO)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertRegex(result.stderr, r"of 12 views are kept in views.incomplete/\n.*Input/output error")
+        self.assertGreater(len(list((self.folder / "views.incomplete").glob("*.png"))), 2)
 
     def test_a_run_keeps_its_frames_and_the_old_output(self):
         self.assertEqual(voxmelt("run", self.scene, "--steps", 2, cwd=self.folder).returncode, 0)

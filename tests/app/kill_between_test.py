@@ -65,7 +65,7 @@ class Sweep:
         assert code == 0, said
         yield "a run over an old output", folder / "over", BEGIN
         checkpoints = [n for n, call in enumerate(self.calls, 1) if call == "rename"]
-        middle = checkpoints[len(checkpoints) // 2]
+        middle = checkpoints[len(checkpoints) // 3]
         copy(folder / "over", folder / "killed")
         code, said = run(folder / "killed", BEGIN, KILL_AT, KILL_AT=middle + 4)
         assert code == -signal.SIGKILL, said

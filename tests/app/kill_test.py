@@ -63,7 +63,8 @@ WHO = ("implementation", "implementation_reason", "threads", "visibility")
 
 def outcome(folder, changed):
     """Every file of the output by its bytes; of the report, what the run gives."""
-    files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*")
+             if p.is_file() and p.name != "last.vxc"}  # it says who ran, and for how long
     report = json.loads(files.pop("report.json"))
     for key in COSTS + (WHO if changed else ()):
         del report[key]

@@ -44,6 +44,7 @@ class RunSh(unittest.TestCase):
         script(self.folder / "cmake/install-dependencies.sh", "")
         script(self.folder / "bin/cmake", "mkdir -p build")
         script(self.folder / "build/first/app/voxmelt", 'echo "$@"; exit 7')
+        script(self.folder / "bin/ffmpeg", "")
         self.env = dict(os.environ, PATH=f"{self.folder}/bin:{os.environ['PATH']}")
 
     def tearDown(self):
@@ -57,6 +58,13 @@ class RunSh(unittest.TestCase):
                 self.assertEqual((result.stdout, result.stderr), (expected + "\n", ""))
                 self.assertEqual(result.returncode, 7, "the program's own exit code")
 
+    def test_a_film_that_cannot_be_is_said(self):
+        (self.folder / "bin/ffmpeg").unlink()
+        for tool in ("bash", "dirname", "mkdir"):
+            (self.folder / "bin" / tool).symlink_to(shutil.which(tool))
+        result = subprocess.run([self.folder / "run.sh"], env=dict(os.environ, PATH=f"{self.folder}/bin"), capture_output=True, text=True)
+        self.assertEqual((result.stdout, result.stderr), ("run cello\n", "Without ffmpeg there are pictures and no film: apt-get install ffmpeg\n"))
+
     def test_what_fails_before_ends_it(self):
         script(self.folder / "bin/cmake", "echo no compiler; exit 1")
         result = subprocess.run([self.folder / "run.sh"], env=self.env, capture_output=True, text=True)
@@ -66,7 +74,7 @@ class RunSh(unittest.TestCase):
         program = self.folder / "build/first/app/voxmelt"
         program.rename(self.folder / "later")
         script(self.folder / "bin/cmake", f"mkdir -p build/first/app; cp {self.folder}/later {program}")
-        for expected in ("Building voxmelt takes some two minutes on two cores, once.\n", ""):
+        for expected in ("Building voxmelt takes some two minutes on two cores, once.\nThen look at out/cello/contact_sheet.png.\n", ""):
             result = subprocess.run([self.folder / "run.sh"], env=self.env, capture_output=True, text=True)
             self.assertEqual((result.returncode, result.stdout, result.stderr), (7, "run cello\n", expected))
 

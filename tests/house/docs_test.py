@@ -7,7 +7,7 @@
 - Links and paths exist, in README, docs, scenes and examples, and the paths that include/ names.
 - A line has at most 100 columns, but in tables, code and generated pages.
 - The separator row of a table has a line of its own: a rewrap that runs a table together is noticed.
-- README has at most 90 lines, and no sentence of more than 30 words. Its C++ programs are files of examples/. A decision has at most 40 lines and stands in the index.
+- README has at most 90 lines, and no sentence of more than 30 words. Its C++ programs are files of examples/. A decision has at most 40 lines and stands once in the index.
 - The scripts that the README names parse.
 """
 import re
@@ -85,8 +85,8 @@ def offences(root):
     for page in sorted(decisions.glob("*.md")):
         if page.name == "README.md":
             continue
-        if f"]({page.name})" not in index:
-            found.append(f"docs/decisions/README.md: leaves out {page.name}")
+        if (times := index.count(f"]({page.name})")) != 1:
+            found.append(f"docs/decisions/README.md: {'leaves out' if times == 0 else 'lists twice'} {page.name}")
         if page.read_text().count("\n") > DECISION_LINES:
             found.append(f"docs/decisions/{page.name}: more than {DECISION_LINES} lines")
 
@@ -117,6 +117,7 @@ def self_test():
         "docs/e.md": ("# Table\n\n| field | meaning | |---|--:| | `a` | b |\n", ["docs/e.md:3: the separator row"]),
         "examples/README.md": ("[gone](gone.cpp)\n", ["examples/README.md: link to gone.cpp"]),
         "include/b.h": ("/// See docs/gone.md.\n", ["include/b.h: names docs/gone.md"]),
+        "docs/decisions/README.md": ("- [one](one.md)\n- [one, again](one.md)\n- [long](long.md)\n", ["lists twice one.md"]),
         "docs/decisions/lost.md": ("# Lost\n", ["leaves out lost.md"]),
         "docs/decisions/long.md": ("\n" * 41, ["docs/decisions/long.md: more than 40 lines"]),
         "run.sh": ("if\n", ["run.sh: does not parse"]),

@@ -49,6 +49,7 @@ TABLE = {
     "istream": "istream ws",
     "iterator": "back_inserter begin distance end forward_iterator_tag istreambuf_iterator iterator_traits next prev size ssize",
     "limits": "numeric_limits",
+    "locale": "locale numpunct",
     "list": "list",
     "map": "map multimap erase_if",
     "memory": "addressof allocator make_shared make_unique make_unique_for_overwrite shared_ptr static_pointer_cast unique_ptr weak_ptr",
@@ -82,7 +83,7 @@ TABLE = {
     "vector": "erase erase_if vector",
 }
 # The same for names outside of std, macros among them; where a header is needed for these alone.
-PLAIN = {"assert": "cassert", "errno": "cerrno", "stdout": "cstdio", "stderr": "cstdio", "stdin": "cstdio", "SIGINT": "csignal", "SIGTERM": "csignal",
+PLAIN = {"assert": "cassert", "errno": "cerrno", "EINVAL": "cerrno", "EAGAIN": "cerrno", "stdout": "cstdio", "stderr": "cstdio", "stdin": "cstdio", "SIGINT": "csignal", "SIGTERM": "csignal",
          "INT32_MAX": "cstdint", "INT64_MAX": "cstdint", "INT64_MIN": "cstdint", "UINT64_MAX": "cstdint", "SIZE_MAX": "cstdint",
          "EXIT_FAILURE": "cstdlib", "EXIT_SUCCESS": "cstdlib", "PRIu64": "cinttypes", "PRIx64": "cinttypes", "va_list": "cstdarg"}
 HEADERS = {}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Names, statements and comments that anyone reads: no variable is called `of`, a statement does one thing, and no
-sentence of a comment begins like a half sentence: with What, Of, Who, Whose, Whether or Which.
+sentence of a comment begins like a half sentence: with What, Of, Who, Whose, Whether or Which. No function of the C
+library is called that goes by the locale, which belongs to the program around the library.
 
   words_test.py ROOT
   words_test.py --self-test
@@ -68,6 +69,8 @@ def does_something(part):
     return bool(part) and not DECLARATION.match(part) and not part.startswith("#") and bool(re.search(r"=|\+\+|--|\)$", part))
 
 
+LOCALE = re.compile(r"\b(strto[dfl]\w*|strtou?ll?|sto[ifdl]\w*|stoul\w*|ato[fil]\w*|s?scanf|tolower|toupper|is(?:space|alpha|digit|alnum|punct|print|upper|lower|xdigit)|setlocale)\s*\(")
+
 HALF = re.compile(r"(?:^|[.:] )((?:What|Of|Who|Whose|Whether|Which)\b[^.]*)")
 
 
@@ -84,6 +87,8 @@ def offences(name, text):
     def place(at):
         return f"{name}:{code.count(chr(10), 0, at) + 1}"
     found = [f"{place(m.start())}: a variable is called `of`" for m in re.finditer(r"(?<!::)\bof\b(?!\s*\()", code)]
+    if not name.startswith(("tests/", "examples/")):
+        found += [f"{place(m.start())}: {m[1]} goes by the locale of the program around us" for m in LOCALE.finditer(code)]
     for comment, line in comments(text):
         found += [f"{name}:{line}: a half sentence: {half[:60]}" for half in HALF.findall(comment)]
     for statement, end in statements(code):
@@ -97,7 +102,7 @@ def self_test():
             'say("of");', "return a, b;", "A::of(x); y = table.of(3);", "f([&] { g(); }, {1, 2});", "const auto [a, b] = c(); d = {1, 2};",
             "UInt<16> energy, heat;", "T *const a = f(), *const b = g();", "sum += Pair<int, kTwo>(a).run();", "char c = 'o', d = ',';"]
     wrong = ["int of = 0;", "f(of);", "a = 0, b = 1;", "if (x) a = 0, ++b;", "f(1), g(2);", "else a.b[3] = 1, c->d += 2;", "f([&] { a = 1, b = 2; });",
-             "case 3: a = 1, b = 2;", "for (int i : x) f(i), g(i);"]
+             "x = std::stoi(text);", "c = tolower(c);", "d = strtod(a, b);", "case 3: a = 1, b = 2;", "for (int i : x) f(i), g(i);"]
     halves = ["// What it holds.\n", "  // It holds.\n  // Of all, one.\n", "/// Whose bits.\n"]
     for text in halves:
         assert offences("x", text), text

@@ -112,6 +112,52 @@ TEST_F(Video, AFilmThatIsNotFinishedIsNoFilm) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
+// A child that sleeps uses no processor. It sleeps before it has read, and after it has read all.
+TEST_F(Video, AnFfmpegThatHangsIsGivenUp) {
+  const render::Patience little{.idle = std::chrono::milliseconds(300)};
+  const std::string place = (folder_ / "film.mp4").string();
+  for (const char* script :
+       {"exec sleep 600", "cat > \"$film\"; exec sleep 600", "cat > \"$film\"; sleep 600"}) {
+    const FakeFfmpeg hanging(script);
+    const auto begin = std::chrono::steady_clock::now();
+    VideoWriter video(folder_ / "film.mp4", 10, little);
+    for (int i = 0; i < 9; ++i) video.add(frame(300, 200));
+    EXPECT_EQ(video.finish(), place + ": no film: ffmpeg does nothing any more") << script;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+    EXPECT_TRUE(nothing_is_left());
+  }
+}
+
+// It works for ever, and writes nothing.
+TEST_F(Video, AnFfmpegThatNeverEndsIsGivenUp) {
+  const render::Patience little{.in_all = std::chrono::milliseconds(500)};
+  const FakeFfmpeg busy("cat > /dev/null; while :; do :; done");
+  VideoWriter video(folder_ / "film.mp4", 10, little);
+  video.add(frame(300, 200));
+  EXPECT_EQ(video.finish(), (folder_ / "film.mp4").string() + ": no film: ffmpeg does not end");
+}
+
+TEST_F(Video, AStopIsHeededWhileFfmpegWorks) {
+  bool stopped = false;
+  render::Patience patience;
+  patience.after_stop = std::chrono::milliseconds(200);
+  patience.stop = [&] { return stopped; };
+  const FakeFfmpeg busy("cat > /dev/null; while :; do :; done");
+  VideoWriter video(folder_ / "film.mp4", 10, patience);
+  video.add(frame(300, 200));
+  stopped = true;
+  EXPECT_EQ(video.finish(), (folder_ / "film.mp4").string() + ": no film: ffmpeg did not end in time");
+}
+
+// A slow one is no hanging one: each frame takes longer than one may do nothing.
+TEST_F(Video, ASlowFfmpegHasItsTime) {
+  const render::Patience little{.idle = std::chrono::milliseconds(400)};
+  const FakeFfmpeg slow("i=0; while [ $i -lt 60000 ]; do i=$((i + 1)); done; cat > \"$film\"");
+  VideoWriter video(folder_ / "film.mp4", 10, little);
+  for (int i = 0; i < 9; ++i) video.add(frame(300, 200));
+  EXPECT_EQ(video.finish(), std::nullopt);
+}
+
 TEST_F(Video, TheRealFfmpegTakesOddSizes) {
   if (!render::ffmpeg_found()) GTEST_SKIP() << "no ffmpeg";
   VideoWriter video(folder_ / "film.mp4", 10);
