@@ -134,7 +134,7 @@ int run_accuracy(const AccuracyOptions& options) {
 void add_accuracy(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
   const Command command = program.add("accuracy", std::string(description_of("accuracy")));
-  command.flag("--quick", options->quick, "small cases only: less than a minute");
+  command.flag("--quick", options->quick, "small cases only: about a minute");
   command.option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
       .written_as("NAME")
       .one_each_time();

@@ -188,7 +188,7 @@ void add_bench(CommandLine& program) {
               "finer grids), film (a whole melt) (default: automaton,picture)")
       .separated_by(',')
       .one_of({"automaton", "picture", "grids", "film"});
-  command.flag("--quick", options->quick, "small cases only: less than a minute");
+  command.flag("--quick", options->quick, "small cases only: about half a minute");
   command
       .option("--scenes", options->scenes,
               "these scenes only, with commas between them (default: the showcase scenes, and dense volumes)")

@@ -5,7 +5,7 @@
 
 namespace voxmelt::scene {
 
-// Looks at places of the edges, less than half a cell apart. What lies within a face is not looked at: a
+// Looks at places of the edges, at most half a cell apart. The inside of a face is not looked at, because a
 // polygon need not be convex, nor plane.
 EdgeLength length_of_edges(const Mesh& mesh, const Coverage& coverage);
 
