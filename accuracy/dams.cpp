@@ -68,7 +68,7 @@ Outcome measure_dam_length(const Conditions& conditions) {
   Curve error{.name = "depth 4 to 2, kappa 0.05"};
   std::vector<Point> lengths;  // time, length
   for (const double older : {2., 4., 8., 16., 32.}) {
-    trial.run_to(static_cast<std::uint32_t>(std::lround(age * (older - 1))));
+    trial.run_to(step_at(age * (older - 1)));
     const double time = age + trial.steps(), length = rms_x(middle_row(Columns(trial.volume())));
     lengths.push_back({time, length});
     error.points.push_back({static_cast<double>(trial.steps()), 100 * (length / dam.rms_length(time) - 1)});
@@ -131,14 +131,14 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
     Trial trial =
         channel(conditions, kappa, kChannel, kHigh + 2, kWide, [&](int x) { return x < kLong ? kHigh : 0.; });
     const std::string setting = fmt::format("kappa {:g}", kappa);
-    trial.run_to(static_cast<std::uint32_t>(std::lround(1 / kappa)));
+    trial.run_to(step_at(1 / kappa));
     const double middle = mean_x(middle_row(Columns(trial.volume())));
     outcome.rows.push_back({.setting = setting + ", kappa x steps = 1",
                             .quantity = "centre of mass, cells from the wall",
                             .value = middle,
                             .exact = mean_x(after_1) / kParts,
                             .speed = trial.speed()});
-    trial.run_to(static_cast<std::uint32_t>(std::lround(kLater / kappa)));
+    trial.run_to(step_at(kLater / kappa));
     const std::vector<double> row = middle_row(Columns(trial.volume()));
     if (first_height)
       outcome.rows.push_back({.setting = setting + ", kappa x steps = 4",

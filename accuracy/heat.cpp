@@ -70,7 +70,7 @@ Followed follow(const Conditions& conditions, const Stefan& stefan, int cells, d
   found.error.name = fmt::format("St {:g}", stefan.number);
   double front = 0, time = 1;
   for (int sample = 1; sample <= 5; ++sample) {
-    trial.run_to(static_cast<std::uint32_t>(std::lround(stefan.time_of(last * sample / 5))));
+    trial.run_to(step_at(stefan.time_of(last * sample / 5)));
     time = trial.steps();
     front = stefan.front(trial);
     const double exact = 2 * stefan.lambda() * std::sqrt(diffusivity(Stefan::kGamma, 6) * time);
@@ -134,7 +134,7 @@ Outcome measure_heat_kernel(const Conditions& conditions) {
     Curve curve{.name = fmt::format("{} neighbours, gamma {:g}", s.neighbours, s.gamma)};
     double growth = 0;
     for (int sample = 1; sample <= 5; ++sample) {
-      trial.run_to(static_cast<std::uint32_t>(std::lround(last * sample / 5)));
+      trial.run_to(step_at(last * sample / 5));
       growth = heat_second_moment(trial.volume()) - start;
       curve.points.push_back({6 * d * trial.steps(), 100 * (growth / (6 * d * trial.steps()) - 1)});
     }

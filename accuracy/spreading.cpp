@@ -28,9 +28,7 @@ struct Start {
   Drop drop() const { return {kappa, 0.75 * std::numbers::pi * front * front * depth}; }
   double age() const { return drop().time_of_front(front); }
   // Returns the steps from the start until the depth has fallen by the factor `thinner`, as t^(-1/4).
-  std::uint32_t steps_until(double thinner) const {
-    return static_cast<std::uint32_t>(std::lround(age() * (std::pow(thinner, 4) - 1)));
-  }
+  std::uint32_t steps_until(double thinner) const { return step_at(age() * (std::pow(thinner, 4) - 1)); }
   Trial trial(const Conditions& conditions, double thinnest) const {
     const int half = static_cast<int>(std::ceil(front * std::sqrt(thinnest))) + 5;
     return {conditions,

@@ -1,6 +1,7 @@
 // A trial is one run of a case: a committed scene, its start state, and how fast it ran.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,6 +14,9 @@
 #include "kernel/scene/scene.h"
 
 namespace voxmelt::accuracy {
+
+// Returns the step that is nearest to a time in steps.
+inline std::uint32_t step_at(double time) { return static_cast<std::uint32_t>(std::lround(time)); }
 
 class Trial {
  public:

@@ -24,9 +24,7 @@ void done() {
 }
 
 void print_case(const Case& one) {
-  const auto phase = [&](step::Phase p) {
-    return measure::milliseconds(one.step.phase[static_cast<std::size_t>(p)]);
-  };
+  const auto phase = [&](step::Phase p) { return measure::milliseconds(one.step.phase[index_of(p)]); };
   using enum step::Phase;
   const std::string phases = one.subject == Subject::flow
                                  ? fmt::format("{} + {} + {}", phase(gravity), phase(spread), phase(excess))

@@ -22,7 +22,7 @@ std::string one_line(std::string_view text) {
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
   std::string line;
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
+    const unsigned char byte = c;
     if (c == '\n') {
       line += ' ';
     } else if (byte < 0x20 || byte == 0x7f) {

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   using namespace voxmelt;
   bench::register_workloads([](const measure::Workload& workload, const measure::Candidate& candidate) {
     const auto phase = [&](step::Phase which, measure::Subject subject) {
-      const auto index = static_cast<std::size_t>(which);
+      const std::size_t index = index_of(which);
       bench::add({std::string(step::kPhaseNames[index]) + "/" + bench::coordinates(workload, candidate),
                   workload, candidate,
                   [index](const measure::Seconds& seconds) { return seconds.phase[index]; },

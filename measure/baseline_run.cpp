@@ -18,7 +18,7 @@ template <class Task>
 void timed(Seconds& step, step::Phase phase, const Task& task) {
   const auto start = std::chrono::steady_clock::now();
   task();
-  step.phase[static_cast<std::size_t>(phase)] =
+  step.phase[index_of(phase)] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -74,8 +74,7 @@ struct Loops {
 
   static void update(std::uint16_t* at, std::size_t lanes) {
     const V some = L::set(3);
-    for (std::size_t i = 0; i < lanes; i += static_cast<std::size_t>(L::kCount))
-      L::store(at + i, L::load(at + i) + some);
+    for (std::size_t i = 0; i < lanes; i += L::kCount) L::store(at + i, L::load(at + i) + some);
   }
 };
 

@@ -77,7 +77,7 @@ struct alignas(64) Line {
 
 std::size_t cache_bytes(int name) {
   const long bytes = ::sysconf(name);
-  return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+  return bytes > 0 ? bytes : 0;
 }
 
 std::string processor_name() {

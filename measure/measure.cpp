@@ -13,8 +13,6 @@
 namespace voxmelt::measure {
 namespace {
 
-constexpr auto index(step::Phase phase) { return static_cast<std::size_t>(phase); }
-
 run::Simulation fresh(const Workload& workload, const Candidate& candidate) {
   step::Tuning tuning;
   tuning.threads = candidate.threads;
@@ -25,9 +23,11 @@ run::Simulation fresh(const Workload& workload, const Candidate& candidate) {
 
 double Seconds::flow() const {
   using enum step::Phase;
-  return phase[index(gravity)] + phase[index(spread)] + phase[index(excess)];
+  return phase[index_of(gravity)] + phase[index_of(spread)] + phase[index_of(excess)];
 }
-double Seconds::heat() const { return phase[index(step::Phase::heat)] + phase[index(step::Phase::melt)]; }
+double Seconds::heat() const {
+  return phase[index_of(step::Phase::heat)] + phase[index_of(step::Phase::melt)];
+}
 double Seconds::total() const {
   double sum = 0;
   for (const double one : phase) sum += one;

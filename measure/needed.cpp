@@ -62,7 +62,7 @@ LeastSeconds least_seconds(const Needed& needed, int lanes, int threads, const F
   const auto one = [&](double vectors, double seconds, double cells) {
     return vectors * lanes * seconds / cells / threads;
   };
-  const double gravity = flow.step.phase[static_cast<std::size_t>(step::Phase::gravity)];
+  const double gravity = flow.step.phase[index_of(step::Phase::gravity)];
   LeastSeconds least;
   least.flow =
       one(needed.gravity, gravity, flow.cells) + one(needed.spread, flow.step.flow() - gravity, flow.cells);

@@ -31,7 +31,7 @@ std::size_t footprint(const Workload& workload, std::int64_t active) {
 // The paper counts excess as spreading.
 TableRow table_row(std::string scene, std::string program, const state::Grid& grid, const Seconds& step,
                    double update) {
-  const double gravity = step.phase[static_cast<std::size_t>(step::Phase::gravity)];
+  const double gravity = step.phase[index_of(step::Phase::gravity)];
   return {std::move(scene), std::move(program),         grid, gravity * 1e3, (step.flow() - gravity) * 1e3,
           update * 1e3,     1 / (step.total() + update)};
 }

@@ -70,7 +70,7 @@ struct Whole {
     const auto whole = static_cast<Product>(amount);
     return static_cast<Wide>((content + ((whole * static_cast<Product>(offset(dither))) >> 16)) / whole);
   }
-  static std::size_t band(Wide heat) { return static_cast<std::size_t>(heat >> (kBits - 5)); }  // 0..31
+  static std::size_t band(Wide heat) { return heat >> (kBits - 5); }  // 0..31
 };
 
 template <class Number>

@@ -37,7 +37,7 @@ ExactField::ExactField(const render::PictureScene& scene) {
   cells_ = {static_cast<int>(n.x), static_cast<int>(n.y), static_cast<int>(n.z)};
   std::size_t size = 1;
   for (std::size_t a = 0; a < 3; ++a) size *= side_[a] = cells_[a] + 2 * kBorder;
-  levels_.assign(size, static_cast<float>(picture::kAir));
+  levels_.assign(size, picture::kAir);
   matter_.resize(size);
   for (int z = 0; z < cells_[2]; ++z)
     for (int y = 0; y < cells_[1]; ++y)
@@ -73,7 +73,7 @@ void ExactField::find_distances() {
   each([&](std::ptrdiff_t i) {
     for (const std::ptrdiff_t corner :
          {std::ptrdiff_t{0}, std::ptrdiff_t{1}, row, row + 1, slice, slice + 1, slice + row, slice + row + 1})
-      if (levels_[static_cast<std::size_t>(i + corner)] >= 0) far(i) = 0;
+      if (levels_[i + corner] >= 0) far(i) = 0;
   });
   each([&](std::ptrdiff_t i) {
     for (const std::ptrdiff_t to : before) nearer(i, i + to);

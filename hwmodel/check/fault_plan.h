@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/fabric/index_of.h"
+
 namespace voxmelt::hwmodel::check {
 
 template <class Fault>
@@ -28,10 +30,10 @@ struct FaultInfo {
 // row would never be tested.
 template <class Fault, std::size_t kRows>
 constexpr bool lists_all(const std::array<FaultInfo<Fault>, kRows>& rows) {
-  auto expected = static_cast<std::size_t>(Fault::none);
+  std::size_t expected = index_of(Fault::none);
   for (const FaultInfo<Fault>& row : rows)
-    if (static_cast<std::size_t>(row.fault) != ++expected) return false;
-  return ++expected == static_cast<std::size_t>(Fault::end);
+    if (index_of(row.fault) != ++expected) return false;
+  return ++expected == index_of(Fault::end);
 }
 
 // Returns null if no fault has this name.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -113,14 +114,14 @@ void Waves::end() {
   is_new_ = false;
   if (!keeps(now_at_)) return;
   kept_.emplace_back(now_at_, now_);
-  if (!from_ && more_ < 0 && static_cast<std::int64_t>(kept_.size()) > kCycles) kept_.pop_front();
+  if (!from_ && more_ < 0 && std::ssize(kept_) > kCycles) kept_.pop_front();
 }
 
 bool Waves::wants_more() {
   if (from_) return false;
   if (more_ < 0) {
     more_ = kCycles / 2;
-    while (static_cast<std::int64_t>(kept_.size()) >= kCycles / 2) kept_.pop_front();
+    while (std::ssize(kept_) >= kCycles / 2) kept_.pop_front();
   }
   return more_-- > 0;
 }

@@ -82,8 +82,7 @@ Answer answer_of(const Question& question, const Axes& axes, const Swept& swept)
     answer.fronts[f] = front_of(swept.points, f);
     answer.front.insert(answer.front.end(), answer.fronts[f].begin(), answer.fronts[f].end());
   }
-  for (std::size_t r = 0; r < kResources; ++r)
-    answer.next[r] = next_of(question, swept, speed, static_cast<Resource>(r));
+  for (const Resource r : kEachResource) answer.next[r] = next_of(question, swept, speed, r);
   std::sort(answer.front.begin(), answer.front.end(),
             [&](std::size_t a, std::size_t b) { return preferred(swept.points[a], swept.points[b]); });
   answer.front.erase(std::unique(answer.front.begin(), answer.front.end()), answer.front.end());

@@ -60,7 +60,7 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     const std::string key(axis.key);
     std::vector<int>* values = &(axes.*axis.values);
     if (!hw->has(key)) continue;
-    const auto value = static_cast<int>(hw->integer(key, 0, 1'000'000));
+    const int value = hw->integer(key, 0, 1'000'000);
     const bool clock = values == &axes.clock_mhz;  // any clock up to the highest is allowed
     if (clock ? value < 1 || value > values->back()
               : std::find(values->begin(), values->end(), value) == values->end()) {
@@ -70,7 +70,7 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     }
     *values = {value};
   }
-  if (hw->has("tile")) axes.tile = static_cast<int>(hw->integer("tile", 0, kMostTile));
+  if (hw->has("tile")) axes.tile = hw->integer("tile", 0, kMostTile);
   hw->finish();
 }
 

@@ -3,14 +3,13 @@
 #include <optional>
 
 #include "hwmodel/explore/timing.h"
+#include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/streams/memory_streams.h"
 
 namespace voxmelt::hwmodel::explore {
 
-double Checked::error() const {
-  return on_memory == 0 ? 0 : static_cast<double>(predicted_on - on_memory) / static_cast<double>(on_memory);
-}
+double Checked::error() const { return ratio(predicted_on - on_memory, on_memory); }
 
 Checked check(const Question& question, const Swept& swept, std::size_t at, std::uint32_t steps,
               const CheckInput& input) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/streams/column_port.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -40,9 +41,9 @@ class FirstOfFeeds {
 std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
                                bool& waits) {
   const std::vector<ColumnBursts>& columns = work.columns;
-  const auto ahead = static_cast<std::size_t>(work.coded ? kColumnsAhead : kBurstsAhead);
-  const auto lag = static_cast<std::size_t>(std::llround(work.lag / work.column_cycles));
-  const auto most = static_cast<double>(kBurstsAhead + policy.writes);  // bursts that may wait to be written
+  const std::size_t ahead = work.coded ? kColumnsAhead : kBurstsAhead;
+  const std::size_t lag = std::llround(work.lag / work.column_cycles);
+  const double most = kBurstsAhead + policy.writes;             // bursts that may wait to be written
   const double latency = (work.coded ? 2 : 1) * times.latency;  // coded: the first burst tells the rest
   std::vector<double> done(columns.size() + lag);  // cycle at which the pipeline has taken a column
   FirstOfFeeds first(work.fed_first);
@@ -62,8 +63,7 @@ std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, co
     // Writes, and then the feeds, use the bus while there is no state to read.
     const double idle = start - bus, wrote = std::min(waiting, idle / times.write);
     waiting -= wrote;
-    if (first.feeds() > 0)
-      first.beside((idle - wrote * times.write) / times.read / static_cast<double>(first.feeds()));
+    if (first.feeds() > 0) first.beside(ratio((idle - wrote * times.write) / times.read, first.feeds()));
     const double fed = (c < work.fed.size() ? work.fed[c] : 0) + first.beside(std::max(own, 1.0));
     // While both wait, each gets as many bursts. Writes that find no room go first.
     const double served = std::max(std::min(waiting, own + fed), waiting - most);

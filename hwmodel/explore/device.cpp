@@ -37,9 +37,7 @@ scene::Value document_of(const std::vector<NamedText>& files, const std::string&
                                          "hwmodel/explore/" + folder + "/" + name + ".toml", {}, false}));
 }
 
-int whole(scene::Reader& from, const char* key, int low, int high) {
-  return static_cast<int>(from.integer(key, low, high));
-}
+int whole(scene::Reader& from, const char* key, int low, int high) { return from.integer(key, low, high); }
 
 scene::Reader table_of(scene::Reader& from, const std::string& key) {
   std::optional<scene::Reader> table = from.table(key);

@@ -14,6 +14,7 @@
 namespace voxmelt::hwmodel::explore {
 
 enum Resource : std::uint8_t { kLut, kFf, kDsp, kBram, kUram, kResources };
+inline constexpr std::array<Resource, kResources> kEachResource{kLut, kFf, kDsp, kBram, kUram};
 inline constexpr std::array<std::string_view, kResources> kResourceNames{"lut", "ff", "dsp", "bram", "uram"};
 using Amounts = std::array<std::int64_t, kResources>;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hwmodel/memory/address_map.h"
+#include "hwmodel/memory/ratio.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -25,9 +26,7 @@ double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
 
 // Returns the share of the time lost to refresh. In every tREFI the rank closes, is refreshed, and opens a
 // row.
-double refresh_share(const memory::Parameters& p) {
-  return static_cast<double>(p.rtp + p.rp_all + p.rfc + p.rcd) / p.refi;
-}
+double refresh_share(const memory::Parameters& p) { return ratio(p.rtp + p.rp_all + p.rfc + p.rcd, p.refi); }
 
 }  // namespace
 
@@ -35,7 +34,7 @@ double meeting(double bursts, const memory::Parameters& p) {
   // All bursts of a stretch lie in one bank of every group.
   const std::int64_t stretch = p.row_bytes() / memory::kBurst * p.groups * p.channels;
   const std::int64_t period = std::int64_t{p.banks} * p.ranks * p.banks;  // stretches until banks repeat
-  const auto whole = static_cast<std::int64_t>(std::floor(bursts / static_cast<double>(stretch)));
+  const double stretches_between = ratio(bursts, stretch), below = std::floor(stretches_between);
   const auto share = [&](std::int64_t stretches) {
     std::int64_t met = 0;
     for (std::int64_t at = 0; at < period; ++at) {
@@ -44,9 +43,10 @@ double meeting(double bursts, const memory::Parameters& p) {
       const memory::Location b = memory::locate(other * stretch * memory::kBurst, p);
       met += stretches != 0 && a.bank == b.bank && a.rank == b.rank ? 1 : 0;
     }
-    return static_cast<double>(met) / static_cast<double>(period);
+    return ratio(met, period);
   };
-  const double part = bursts / static_cast<double>(stretch) - static_cast<double>(whole);
+  const double part = stretches_between - below;
+  const std::int64_t whole = std::llround(below);
   return (1 - part) * share(whole) + part * share(whole + 1);
 }
 
@@ -67,14 +67,14 @@ std::int64_t cycles_at(const StreamWork& work, const memory::Parameters& p, int 
   constexpr double kBurstBits = 8.0 * memory::kBurst;
   const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
   const double alone = std::min(lag, window), both = window - alone, rest = lag - alone;
-  const double reads = static_cast<double>(work.read_bits + work.fed_bits) / kBurstBits;
-  const double writes = static_cast<double>(work.written_bits) / kBurstBits;
-  const double ratio = static_cast<double>(clock_mhz) / p.mhz;
+  const double reads = ratio(work.read_bits + work.fed_bits, kBurstBits);
+  const double writes = ratio(work.written_bits, kBurstBits);
+  const double clocks = ratio(clock_mhz, p.mhz);
   // A batch of writes begins when `policy.batch` of them wait. So its first write lies so far behind, and its
   // last one next to nothing. Bursts of the feeds lie in banks at random.
   Meetings meetings;
-  const double state = static_cast<double>(work.read_bits) / std::max(1.0, kBurstBits * reads);
-  const double lag_bursts = static_cast<double>(work.read_bits) / kBurstBits * lag / window;
+  const double state = ratio(work.read_bits, std::max(1.0, kBurstBits * reads));
+  const double lag_bursts = ratio(work.read_bits, kBurstBits) * lag / window;
   const std::vector<Behind> as_lag{{lag_bursts, 1}};
   for (const Behind& one : placement.behind.empty() ? as_lag : placement.behind) {
     meetings.of_writes += one.share * meeting(one.bursts + policy.batch, p);
@@ -86,17 +86,17 @@ std::int64_t cycles_at(const StreamWork& work, const memory::Parameters& p, int 
     const double burst = burst_cycles(1, 0, meetings, p, policy), turn = turn_cycles(p, meetings);
     return cycles_by_columns(
         placement.work,
-        {ratio * burst, ratio * (burst + turn / p.channels / policy.batch / (1 - refresh_share(p))),
-         ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles)},
+        {clocks * burst, clocks * (burst + turn / p.channels / policy.batch / (1 - refresh_share(p))),
+         clocks * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles)},
         policy, waits);
   }
   const auto segment = [&](double cycles, bool reading, bool writing) {
     const double share = cycles / window;
-    return std::max(cycles, ratio * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0,
-                                                 meetings, p, policy));
+    return std::max(cycles, clocks * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0,
+                                                  meetings, p, policy));
   };
   const double first =
-      ratio * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles);
+      clocks * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles);
   return std::llround(first + segment(alone, true, false) + segment(both, true, true) + rest +
                       segment(alone, false, true));
 }

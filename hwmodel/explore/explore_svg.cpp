@@ -61,6 +61,11 @@ std::string number(double value) {
   return fmt::format("{:g}", value);
 }
 
+// Is what an axis shows: its scale is logarithmic, so 0 stands at 1.
+double shown_amount(const Point& p, std::size_t front) {
+  return static_cast<double>(std::max<std::int64_t>(1, amount_of(p, front)));
+}
+
 double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
 
 struct Panel {
@@ -68,9 +73,7 @@ struct Panel {
   std::size_t f;  // index into Answer::fronts
   Scale x, y;
 
-  double amount(const Point& p) const {
-    return static_cast<double>(std::max<std::int64_t>(1, amount_of(p, f)));
-  }
+  double amount(const Point& p) const { return shown_amount(p, f); }
   std::string at(const Point& p) const { return fmt::format("{:.1f},{:.1f}", x(amount(p)), y(giga(p))); }
 
   std::string axes(const std::string& name) const {
@@ -93,8 +96,7 @@ struct Panel {
   std::string all() const {
     std::set<std::pair<int, int>> seen;  // one dot for designs at one place
     for (const Point& p : explored.swept.points)
-      if (p.taken.fits())
-        seen.emplace(static_cast<int>(std::lround(x(amount(p)))), static_cast<int>(std::lround(y(giga(p)))));
+      if (p.taken.fits()) seen.emplace(std::lround(x(amount(p))), std::lround(y(giga(p))));
     std::string path;
     for (const auto& [across, down] : seen) path += fmt::format("M{} {}h0", across, down);
     return fmt::format("<path class='dots' d='{}'/>\n", path);
@@ -145,7 +147,7 @@ std::string name_of(std::size_t front) {
   return front < kResources ? name : "clock, MHz";
 }
 
-std::size_t row_of(std::size_t panel) { return panel / 2; }
+double top_of(std::size_t panel) { return kHeight * static_cast<double>(panel / 2); }
 
 // Cuts a long text into lines at blanks.
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {
@@ -173,7 +175,7 @@ std::string svg_of(const Explored& explored) {
       fastest = std::max(fastest, giga(p));
     }
   constexpr double kHead = 104;
-  const double height = kHead + kHeight * static_cast<double>(row_of(shown.size() + 1));
+  const double height = kHead + top_of(shown.size() + 1);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
       "role='img'>\n{2}"
@@ -187,13 +189,12 @@ std::string svg_of(const Explored& explored) {
       const auto most = static_cast<double>(f < kResources ? usable[f] : explored.question.device.clock_mhz);
       double least = most;
       for (const std::size_t at : explored.answer.fronts[f])
-        least = std::min(
-            least, static_cast<double>(std::max<std::int64_t>(1, amount_of(explored.swept.points[at], f))));
+        least = std::min(least, shown_amount(explored.swept.points[at], f));
       const Panel panel{explored, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
                         Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
       svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
-                         kHead + kHeight * static_cast<double>(row_of(i)), panel.axes(name_of(f)),
-                         panel.all(), panel.limit(most), panel.front());
+                         kHead + top_of(i), panel.axes(name_of(f)), panel.all(), panel.limit(most),
+                         panel.front());
     }
   svg += fmt::format(
       "<circle class='verified' cx='30' cy='88' r='4'/><text x='40' y='92'>verified</text>"

@@ -8,15 +8,14 @@
 #include <vector>
 
 #include "hwmodel/explore/explore_report.h"
+#include "hwmodel/memory/ratio.h"
 #include "kernel/scene/text/ascii.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
 
-double percent(double part, double whole) { return whole == 0 ? 0 : 100 * part / whole; }
-double gain(std::int64_t speed, std::int64_t than) {
-  return percent(static_cast<double>(speed - than), static_cast<double>(than));
-}
+double percent(std::int64_t part, std::int64_t whole) { return ratio(100 * part, whole); }
+double gain(std::int64_t speed, std::int64_t than) { return percent(speed - than, than); }
 std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<double>(speed) * 1e-6); }
 
 std::string design_of(const Point& p) {
@@ -41,7 +40,7 @@ std::string row_of(const Explored& explored, std::size_t at) {
                   p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile), p.clock_mhz, giga(p.speed));
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
   text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
-                      percent(static_cast<double>(p.on_memory - p.cycles), static_cast<double>(p.on_memory)));
+                      percent(p.on_memory - p.cycles, p.on_memory));
   const Checked* checked = checked_at(explored, at);
   if (checked == nullptr) return text + "predicted\n";
   if (!checked->good) return text + "DIFFERS\n";
@@ -53,9 +52,8 @@ std::string row_of(const Explored& explored, std::size_t at) {
 std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::vector<std::pair<std::int64_t, std::string>> bounds;
-  for (std::size_t r = 0; r < kResources; ++r)
-    if (explored.answer.next[r].limit > best)
-      bounds.emplace_back(explored.answer.next[r].limit, unit_of(static_cast<Resource>(r)));
+  for (const Resource r : kEachResource)
+    if (explored.answer.next[r].limit > best) bounds.emplace_back(explored.answer.next[r].limit, unit_of(r));
   if (explored.answer.with_any_memory > best)
     bounds.emplace_back(explored.answer.with_any_memory, "the memory");
   if (explored.answer.with_next_clock > best)
@@ -68,9 +66,9 @@ std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& expl
 std::string next_text(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::string text;
-  for (std::size_t r = 0; r < kResources; ++r) {
+  for (const Resource r : kEachResource) {
     const Next& next = explored.answer.next[r];
-    const auto unit = unit_of(static_cast<Resource>(r));
+    const auto unit = unit_of(r);
     if (next.point)
       text += fmt::format("  {} more {} buy {:+.1f} % ({}); any number {:+.1f} %\n", next.more, unit,
                           gain(explored.swept.points[*next.point].speed, best),
@@ -118,8 +116,7 @@ std::string text_of(const Explored& explored) {
   const Device& device = explored.question.device;
   const Amounts usable = device.usable();
   std::string text = fmt::format("{}, of which usable:", device.title);
-  for (std::size_t r = 0; r < kResources; ++r)
-    text += fmt::format(" {} {}", usable[r], unit_of(static_cast<Resource>(r)));
+  for (const Resource r : kEachResource) text += fmt::format(" {} {}", usable[r], unit_of(r));
   text +=
       fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
                   explored.question.memory ? explored.question.memory->title : "always answers",
@@ -127,8 +124,7 @@ std::string text_of(const Explored& explored) {
                   explored.answer.front.size());
   text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
                       "depth", "overlap", "coded", "tile", "MHz", "Gcell/s");
-  for (std::size_t r = 0; r < kResources; ++r)
-    text += fmt::format(" {:>7}", unit_of(static_cast<Resource>(r)));
+  for (const Resource r : kEachResource) text += fmt::format(" {:>7}", unit_of(r));
   text += fmt::format(" {:>6} {:>7}\n", "full %", "waits %");
   for (const std::size_t at : explored.answer.front) text += row_of(explored, at);
   for (const Checked& checked : explored.checked)

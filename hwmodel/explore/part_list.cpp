@@ -21,7 +21,7 @@ void add_stage(PartList& list, const StagePart& part, const Family& family) {
   list.ff +=
       lanes * (cost.lane.ff + part.units.dividers * family.divider.ff) + blocks * family.random_block.ff;
   for (int i = 0; i < part.units.multipliers && !cost.multipliers.empty(); ++i) {
-    const auto at = std::min<std::size_t>(static_cast<std::size_t>(i), cost.multipliers.size() - 1);
+    const auto at = std::min<std::size_t>(i, cost.multipliers.size() - 1);
     list.dsp += lanes * dsps_of(cost.multipliers[at], family.product);
   }
   for (const BufferCost& buffer : part.buffers)

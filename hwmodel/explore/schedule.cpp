@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
+#include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/lag.h"
 #include "hwmodel/pipeline/streams/column_port.h"
 #include "hwmodel/pipeline/time/prediction.h"
@@ -52,7 +54,7 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
 // owns it.
 void add_columns(Train& train, const Design& design, const Configuration& c, const Content& content) {
   const Shape& shape = design.shape;
-  const double all = static_cast<double>(state_bits(design, false, content, 0, 1)) / shape.grid.z;
+  const double all = ratio(state_bits(design, false, content, 0, 1), shape.grid.z);
   for (const Pass& pass : train.list) {
     const int first = shape.first_block(pass.tile);
     for (int z = 0; z < shape.grid.z; ++z)
@@ -81,9 +83,8 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
   }
   std::vector<std::size_t> delays;
   delays.reserve(pass.steps);
-  const auto column = static_cast<double>(c.interval() * design.shape.column());
-  for (int t = 0; t < pass.steps; ++t)
-    delays.push_back(std::llround(static_cast<double>(t * step + before) / column));
+  const std::int64_t column = c.interval() * design.shape.column();
+  for (int t = 0; t < pass.steps; ++t) delays.push_back(std::llround(ratio(t * step + before, column)));
   return delays;
 }
 
@@ -93,7 +94,7 @@ void add_feeds(Train& train, const Design& design, const Configuration& c, const
   ColumnWork& work = train.placement.work;
   const std::vector<std::size_t> delays = feed_delays(train, design, c);
   work.fed.resize(work.columns.size() + delays.back() + 1);
-  for (std::size_t t = 0; t < delays.size(); ++t) {
+  for (int t = 0; t < std::ssize(delays); ++t) {
     std::vector<double> used;
     double all = 0;
     for (const Pass& pass : train.list) {
@@ -101,12 +102,13 @@ void add_feeds(Train& train, const Design& design, const Configuration& c, const
       for (int z = 0; z < shape.grid.z; ++z)
         for (int block = first; block < first + shape.blocks(); ++block) {
           const std::size_t at = z * shape.grid_blocks() + block;
-          const bool works = static_cast<int>(t) < pass.steps;
-          used.push_back(works ? static_cast<double>(content.lit_columns[at]) / CodeLayout::kBurstBits : 0);
+          const bool works = t < pass.steps;
+          used.push_back(works ? ratio(content.lit_columns[at], CodeLayout::kBurstBits) : 0);
           all += used.back();
         }
     }
-    const double begin = std::min(all, static_cast<double>(kBurstsAhead));
+    constexpr double kFirst = kBurstsAhead;
+    const double begin = std::min(all, kFirst);
     work.fed_first.push_back(begin);
     double left = all - begin;
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -127,8 +129,7 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   // The writes lie as many columns behind as the lag has. Those of tiles lie in the other copy, and a plane
   // there is as wide as the grid.
   const ColumnSlots slots(design, c.coded);
-  const double columns =
-      static_cast<double>(train.work.lag) / static_cast<double>(c.interval() * shape.column());
+  const double columns = ratio(train.work.lag, c.interval() * shape.column());
   const double of_grid = columns * shape.grid_blocks() / shape.blocks();
   const double bursts = of_grid * static_cast<double>(slots.slot_bursts);
   const double copy = static_cast<double>(slots.columns * slots.slot_bursts);

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -72,8 +73,7 @@ void each_choice(const PartList& parts, const Configuration& hw, const Family& f
 
 double share_of(std::int64_t used, std::int64_t there) {
   if (used == 0) return 0;
-  return there == 0 ? std::numeric_limits<double>::infinity()
-                    : static_cast<double>(used) / static_cast<double>(there);
+  return there == 0 ? std::numeric_limits<double>::infinity() : ratio(used, there);
 }
 
 bool better_choice(const Taken& a, const Taken& b) {
@@ -90,13 +90,13 @@ Taken taken_by(const PartList& parts, const Configuration& hw, const Device& dev
   bool first = true;
   each_choice(parts, hw, device.family, [&](const Amounts& amounts, std::int64_t lutram) {
     Taken taken{amounts, lutram, 0, kLut};
-    for (std::size_t r = 0; r < kResources; ++r) {
-      if (relaxed == static_cast<Resource>(r)) continue;
+    for (const Resource r : kEachResource) {
+      if (relaxed == r) continue;
       double share = share_of(amounts[r], usable[r]);
       if (r == kLut) share = std::max(share, share_of(lutram, device.lutram));
       if (share > taken.fullest) {
         taken.fullest = share;
-        taken.most = static_cast<Resource>(r);
+        taken.most = r;
       }
     }
     if (first || better_choice(taken, best)) best = taken;

@@ -57,7 +57,7 @@ class Fifo {
         lanes_(lanes),
         depth_(depth),
         words_(lanes_ * depth),
-        occupancy_(static_cast<std::size_t>(depth) + 1),
+        occupancy_(depth + 1),
         stall_seed_(stall_seed) {
     begin_pass(0);
   }
@@ -94,7 +94,7 @@ class Fifo {
     }
     // A channel that holds too many has overwritten its oldest token. A watcher notices it when that token
     // leaves.
-    ++occupancy_[static_cast<std::size_t>(std::min(count_, depth_))];
+    ++occupancy_[std::min(count_, depth_)];
     stall_ = stalls_.next();
   }
 

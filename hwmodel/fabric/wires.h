@@ -44,7 +44,7 @@ class UInt {
     if (value < 0 || value > kMax) [[unlikely]]
       throw WidthError(value, N, false);
   }
-  constexpr operator std::int64_t() const { return static_cast<std::int64_t>(value_); }
+  constexpr operator std::int64_t() const { return value_; }
 
   // Drops the bits above N on purpose.
   static constexpr UInt truncated(std::int64_t value) { return UInt(value & kMax); }

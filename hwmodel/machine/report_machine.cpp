@@ -8,18 +8,16 @@
 #include <vector>
 
 #include "hwmodel/caster/report/report_picture.h"
+#include "hwmodel/memory/ratio.h"
 
 namespace voxmelt::hwmodel {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
-double ratio(std::int64_t a, std::int64_t b) { return ratio(static_cast<double>(a), static_cast<double>(b)); }
-
 // Returns how often a second something happens that happens `times` times in `cycles`.
 double rate(double times, std::int64_t cycles, int clock_mhz) {
-  return ratio(times * 1e6 * clock_mhz, static_cast<double>(cycles));
+  return ratio(times * 1e6 * clock_mhz, cycles);
 }
 
 std::int64_t upload_bytes(const Period& period) { return period.upload.bursts * raycast::kBurst; }
@@ -53,17 +51,14 @@ Json rate_of_cells(const MachineReport& report, const MachineOptions& options) {
   const Period sum = report.sum();
   const Configuration& c = options.steps.configuration;
   const double cells = static_cast<double>(report.cells) * report.steps.steps;
-  const auto a_cycle = [](double amount, std::int64_t cycles) {
-    return ratio(amount, static_cast<double>(cycles));
-  };
-  const auto own = static_cast<double>(sum.work.bytes());
-  const double all = own + static_cast<double>(sum.frame_read + sum.frame_written + upload_bytes(sum));
+  const std::int64_t own = sum.work.bytes();
+  const std::int64_t all = own + sum.frame_read + sum.frame_written + upload_bytes(sum);
   return {{"lanes_and_steps", static_cast<double>(c.lanes * c.cascade)},
-          {"always_answered", a_cycle(cells, sum.work.cycles)},
-          {"alone", a_cycle(cells, sum.stream)},
-          {"reached", a_cycle(cells, sum.overlapped())},
-          {"bytes_per_cycle_alone", a_cycle(own, sum.stream)},
-          {"bytes_per_cycle", a_cycle(all, sum.overlapped())},
+          {"always_answered", ratio(cells, sum.work.cycles)},
+          {"alone", ratio(cells, sum.stream)},
+          {"reached", ratio(cells, sum.overlapped())},
+          {"bytes_per_cycle_alone", ratio(own, sum.stream)},
+          {"bytes_per_cycle", ratio(all, sum.overlapped())},
           {"most_bytes_per_cycle", options.picture.configuration.memory().most_bytes_per_cycle()},
           {"cell_steps_per_byte", ratio(cells, own)}};
 }
@@ -81,10 +76,10 @@ std::vector<Bound> bounds_of(const MachineReport& report, const MachineOptions& 
   if (busiest != nullptr)
     bounds.push_back({"stage " + busiest->name + " of the ray caster",
                       ratio(busiest->account.busy, busiest->account.total()) * ratio(sum.frame_beside, all)});
-  const double bus =
-      static_cast<double>(sum.frame_bus) + static_cast<double>(sum.work.bytes() + upload_bytes(sum)) /
-                                               options.picture.configuration.memory().most_bytes_per_cycle();
-  bounds.push_back({"bytes on the memory's bus", ratio(bus, static_cast<double>(all))});
+  const double bus = static_cast<double>(sum.frame_bus) +
+                     ratio(sum.work.bytes() + upload_bytes(sum),
+                           options.picture.configuration.memory().most_bytes_per_cycle());
+  bounds.push_back({"bytes on the memory's bus", ratio(bus, all)});
   bounds.push_back({"upload, while both wait", ratio(sum.upload.cycles, all)});
   std::stable_sort(bounds.begin(), bounds.end(),
                    [](const Bound& a, const Bound& b) { return a.share > b.share; });

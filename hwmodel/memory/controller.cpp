@@ -1,6 +1,7 @@
 #include "hwmodel/memory/controller.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace voxmelt::hwmodel::memory {
@@ -19,13 +20,12 @@ Controller::Controller(const Parameters& parameters, const Policy& policy, int c
   reads_.reserve(policy.reads);
   writes_.reserve(policy.writes);
   // Ranks are refreshed one after the other.
-  for (std::size_t r = 0; r < ranks_.size(); ++r)
-    ranks_[r].due = parameters.refi - static_cast<int>(r) * parameters.refi / parameters.ranks;
+  for (int r = 0; r < parameters.ranks; ++r)
+    ranks_[r].due = parameters.refi - r * parameters.refi / parameters.ranks;
 }
 
 bool Controller::has_room(bool write) const {
-  return write ? writes_.size() < static_cast<std::size_t>(policy_.writes)
-               : reads_.size() < static_cast<std::size_t>(policy_.reads);
+  return write ? std::ssize(writes_) < policy_.writes : std::ssize(reads_) < policy_.reads;
 }
 
 bool Controller::must_wait(std::int64_t address, bool write) {
@@ -66,7 +66,7 @@ std::int64_t Controller::step(std::int64_t now, Done& done) {
 
 // The rank's banks are closed together. The rank takes no other command until it is refreshed.
 bool Controller::refresh(std::int64_t now, std::int64_t& next) {
-  for (std::size_t r = 0; r < ranks_.size(); ++r) {
+  for (int r = 0; r < parameters_.ranks; ++r) {
     RankState& rank = ranks_[r];
     if (now < rank.due) {
       next = std::min(next, rank.due);
@@ -85,7 +85,7 @@ bool Controller::refresh(std::int64_t now, std::int64_t& next) {
       continue;
     }
     Location at;
-    at.rank = static_cast<int>(r);
+    at.rank = r;
     if (open) {
       for (BankState& bank : rank.banks()) RankState::precharge(bank, now, parameters_.rp_all);
       tell(now, Command::Kind::precharge_all, at);
@@ -106,7 +106,7 @@ bool Controller::refresh(std::int64_t now, std::int64_t& next) {
 }
 
 void Controller::choose_side(std::int64_t now, std::int64_t& next) {
-  const auto reads = reads_.size(), writes = writes_.size(), low = static_cast<std::size_t>(policy_.low);
+  const std::int64_t reads = reads_.size(), writes = writes_.size(), low = policy_.low;
   const bool may_turn = run_ >= policy_.batch;
   if (writing_) {
     if (writes != 0 && (hurry_ || reads == 0 || (writes > low && !may_turn))) return;
@@ -118,7 +118,7 @@ void Controller::choose_side(std::int64_t now, std::int64_t& next) {
   if (writes == 0) return;
   const std::int64_t too_old = writes_.front().arrival + policy_.starve + 1;
   const std::int64_t lingered = no_reads_since_ + policy_.linger;
-  const bool many = writes >= static_cast<std::size_t>(policy_.high) || now >= too_old;
+  const bool many = writes >= policy_.high || now >= too_old;
   if (hurry_ || (reads != 0 ? many && may_turn : many || writes > low || now >= lingered)) {
     writing_ = true;
     run_ = 0;

@@ -1,6 +1,7 @@
 #include "hwmodel/memory/dram.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -29,8 +30,7 @@ int Dram::open_port(PortClient* client) {
 
 bool Dram::ready(int port) const {
   const Port& the_port = ports_[port];
-  return the_port.inbox.size() < static_cast<std::size_t>(policy_.inbox) &&
-         the_port.reads.size() < static_cast<std::size_t>(policy_.under_way);
+  return std::ssize(the_port.inbox) < policy_.inbox && std::ssize(the_port.reads) < policy_.under_way;
 }
 
 void Dram::put(int port, const Request& request) {
@@ -65,7 +65,7 @@ bool Dram::cycle() {
 void Dram::run(std::int64_t end) {
   while (now_ < end) {
     std::int64_t next = end;
-    for (std::size_t c = 0; c < channels_.size(); ++c) {
+    for (int c = 0; c < std::ssize(channels_); ++c) {
       if (take_request(c)) {
         wake_[c] = now_;
         next = now_ + 1;
@@ -82,7 +82,7 @@ void Dram::run(std::int64_t end) {
 }
 
 // Takes at most one request per cycle and channel, from one port after the other.
-bool Dram::take_request(std::size_t channel) {
+bool Dram::take_request(int channel) {
   Controller& controller = channels_[channel];
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     const std::size_t at = (turn_[channel] + i) % ports_.size();
@@ -91,7 +91,7 @@ bool Dram::take_request(std::size_t channel) {
     Waiting& waiting = port.inbox.front();
     const Request& request = waiting.request;
     const Location location = locate(request.address, parameters_);
-    if (location.channel != static_cast<int>(channel) || !controller.has_room(request.write)) continue;
+    if (location.channel != channel || !controller.has_room(request.write)) continue;
     if (controller.must_wait(request.address, request.write)) {
       controller.held += waiting.held ? 0 : 1;
       waiting.held = true;

@@ -69,7 +69,7 @@ class Dram final : public Memory {
   };
 
   void run(std::int64_t end);
-  bool take_request(std::size_t channel);
+  bool take_request(int channel);
   void finish(const Controller::Done& done);
 
   Parameters parameters_;

@@ -1,6 +1,7 @@
 #include "hwmodel/memory/fixed_latency.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace voxmelt::hwmodel::memory {
 
@@ -46,10 +47,9 @@ void FixedLatency::take(int port) {
 
 bool FixedLatency::cycle() {
   bool moved = false;
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
+  for (int i = 0; i < std::ssize(ports_); ++i) {
     Port& port = ports_[i];
-    for (; !port.inbox.empty(); port.inbox.pop_front(), moved = true)
-      serve(static_cast<int>(i), port.inbox.front());
+    for (; !port.inbox.empty(); port.inbox.pop_front(), moved = true) serve(i, port.inbox.front());
     ways_[port.way].waiting = 0;
   }
   ++now_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -38,8 +39,8 @@ class RankState {
   }
   void activate(BankState& bank, int group, int row, std::int64_t now, const Parameters& p) {
     bank = {row, now + p.rc, now + p.rcd, now + p.ras};
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      groups_[g] = std::max(groups_[g], now + (static_cast<int>(g) == group ? p.rrd_l : p.rrd_s));
+    for (int g = 0; g < std::ssize(groups_); ++g)
+      groups_[g] = std::max(groups_[g], now + (g == group ? p.rrd_l : p.rrd_s));
     four_[oldest_] = now;
     oldest_ = (oldest_ + 1) % four_.size();
   }

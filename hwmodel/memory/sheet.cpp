@@ -15,8 +15,8 @@ namespace {
 constexpr int kMostBanks = 64;  // banks of a channel: the controller keeps a bit of each
 
 int power_of_two(scene::Reader& from, const char* key, int high) {
-  const auto value = static_cast<int>(from.integer(key, 1, high));
-  if (!std::has_single_bit(static_cast<unsigned>(value)))
+  const int value = from.integer(key, 1, high);
+  if (!std::has_single_bit<unsigned>(value))
     from.fail(key, " = " + std::to_string(value) + " is not a power of 2");
   return value;
 }
@@ -77,9 +77,7 @@ void read_shape(scene::Reader& from, memory::Parameters& p) {
 }
 
 void read_cycles(scene::Reader& from, memory::Parameters& p) {
-  const auto cycles = [&](const char* key, int low, int high) {
-    return static_cast<int>(from.integer(key, low, high));
-  };
+  const auto cycles = [&](const char* key, int low, int high) { return from.integer(key, low, high); };
   constexpr int kMost = 10000;
   p.cl = cycles("cl", 1, kMost);
   p.cwl = cycles("cwl", 1, kMost);
@@ -137,7 +135,7 @@ memory::Parameters load_memory(const std::string& name, const std::string& place
   std::optional<scene::Reader> from = root.table("memory");
   if (!from) root.fail("memory", ": the file has no such table");
   from->knows(kKeys);
-  p.mhz = static_cast<int>(from->integer("mhz", 1, 100000));
+  p.mhz = from->integer("mhz", 1, 100000);
   read_shape(*from, p);
   read_cycles(*from, p);
   from->finish();

@@ -1,7 +1,7 @@
 #include "hwmodel/memory/timing_checker.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <iterator>
 
 namespace voxmelt::hwmodel::memory {
 namespace {
@@ -112,8 +112,8 @@ void TimingChecker::check_activate(Rank& rank, const Command& c) {
   must("row", c.row >= 0 && c.row < sheet_.rows, c);
   at_least("tRC", bank.activate, sheet_.rc, c);
   at_least("tRP", bank.precharge, bank.closed_with_all ? sheet_.rp_all : sheet_.rp, c);
-  for (std::size_t g = 0; g < rank.groups.size(); ++g) {
-    const bool same = static_cast<int>(g) == c.group;
+  for (int g = 0; g < std::ssize(rank.groups); ++g) {
+    const bool same = g == c.group;
     at_least(same ? "tRRD_L" : "tRRD_S", rank.groups[g].activate, same ? sheet_.rrd_l : sheet_.rrd_s, c);
   }
   at_least("tFAW", rank.activates[3], sheet_.faw, c);
@@ -138,9 +138,9 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
   must("column", c.column >= 0 && c.column + sheet_.transfers <= sheet_.columns, c);
   at_least("tRCD", bank.activate, sheet_.rcd, c);
   const bool read = c.kind == Kind::read;
-  for (std::size_t g = 0; g < rank.groups.size(); ++g) {
+  for (int g = 0; g < std::ssize(rank.groups); ++g) {
     const Group& group = rank.groups[g];
-    const bool same = static_cast<int>(g) == c.group;
+    const bool same = g == c.group;
     at_least(same ? "tCCD_L" : "tCCD_S", read ? group.read : group.write, same ? sheet_.ccd_l : sheet_.ccd_s,
              c);
     if (!read) continue;

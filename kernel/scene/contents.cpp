@@ -38,7 +38,7 @@ rule::Temperature read_wall(Reader& reader, const rule::Material& material) {
 }
 
 void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {
-  const auto thickness = static_cast<double>(reader.integer("thickness", 1, grid.y, 1));
+  const int thickness = reader.integer("thickness", 1, grid.y, 1);
   raise(terrain, std::vector<double>(terrain.height.size(), thickness));
 }
 
@@ -58,7 +58,7 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   const std::filesystem::path file = reader.file("file");
   const double scale = reader.number("vertical_scale", above(0).at_most(kLargestScale));
   const double base = reader.number("base", at_most(grid.y).because("the height of the grid"), 1.0);
-  const auto passes = static_cast<int>(reader.integer("smooth", 0, 64, 1));
+  const int passes = reader.integer("smooth", 0, 64, 1);
 
   Elevation elevation = read_esri_ascii(file, reader.place("file"));
   if (elevation.missing > 0)
@@ -128,7 +128,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Material& mat
   Contents contents;
   contents.terrain.x = grid.x;
   contents.terrain.z = grid.z;
-  contents.terrain.height.resize(static_cast<std::size_t>(grid.x) * grid.z);
+  contents.terrain.height.resize(grid.columns());
 
   const std::vector<std::pair<const char*, Role>> lists{
       {"solid", Role::solid}, {"liquid", Role::liquid}, {"inert", Role::inert}};

@@ -17,7 +17,7 @@ namespace {
 constexpr double kLargestKappa = 71;  // mobility fits 36 bits
 constexpr std::uint64_t kLargestMobility = (std::uint64_t{1} << 36) - 1;
 constexpr double kLargestEntry = 2;  // largest entry of the table of mobilities: 65535 / 32768
-constexpr int kMostSubsteps = 1024;
+constexpr std::uint16_t kMostSubsteps = 1024;
 constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
 
 Range amount() { return at_most(kLargestAmount); }
@@ -56,7 +56,7 @@ void read_table(Reader& reader, rule::PaperLaw& law) {
 
 rule::PaperLaw read_paper(Reader& reader) {
   rule::PaperLaw law;
-  law.neighbours = static_cast<int>(reader.integer("neighbours", 4, 8, 8));
+  law.neighbours = reader.integer("neighbours", 4, 8, 8);
   if (law.neighbours != 4 && law.neighbours != 8)
     reader.fail("neighbours", fmt::format(" = {} is not 4 or 8", law.neighbours));
   law.threshold = to_amount(reader.number("threshold", amount(), 0.0));
@@ -80,7 +80,7 @@ rule::PaperLaw read_paper(Reader& reader) {
 }
 
 // Reads a number, or "auto", which gives 0.
-std::int64_t read_substeps(Reader& reader) {
+std::uint16_t read_substeps(Reader& reader) {
   if (!reader.has("substeps") || reader.kind("substeps") != Value::Kind::text)
     return reader.integer("substeps", 1, kMostSubsteps, 1);
   reader.choice("substeps", {"auto"});
@@ -94,10 +94,9 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   law.mobility = std::llround(0x1p32 * (2.0 / 9) * kappa);
   law.yield =
       static_cast<std::uint32_t>(std::lround(reader.number("yield", at_most(kLargestYield), 0.0) * 65536));
-  law.stiffness = static_cast<std::uint8_t>(reader.integer("stiffness", 1, 8, 8));
-  law.substeps = static_cast<std::uint16_t>(read_substeps(reader));
-  law.substeps_max =
-      static_cast<std::uint16_t>(reader.integer("substeps_max", 1, kMostSubsteps, kMostSubsteps));
+  law.stiffness = reader.integer<std::uint8_t>("stiffness", 1, 8, 8);
+  law.substeps = read_substeps(reader);
+  law.substeps_max = reader.integer("substeps_max", 1, kMostSubsteps, kMostSubsteps);
   reader.finish();
   return law;
 }

@@ -24,7 +24,7 @@ constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr double kLargestRadius = 8192;
 constexpr double kLargestDirection = 1e6, kLeastDirection = 1e-6;
-constexpr std::int64_t kLastStep = 0xFFFFFFFFll;
+constexpr std::uint32_t kLastStep = 0xFFFFFFFF;
 
 Range power() { return at_most(kLargestPower); }
 
@@ -34,10 +34,10 @@ std::uint16_t weight(double gamma, double squared_distance) {
 }
 
 void read_conduction(Reader& reader, rule::Heat& heat, std::vector<std::string>& warnings) {
-  const std::int64_t asked = reader.integer("neighbours", 6, 26, 6);
+  const int asked = reader.integer("neighbours", 6, 26, 6);
   if (asked != 6 && asked != 18 && asked != 26)
     reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
-  heat.neighbours = static_cast<int>(asked);
+  heat.neighbours = asked;
   const Range range = at_most(kLargestGamma).because(fmt::format("the bound for {} neighbours", asked));
   const double gamma = reader.number("gamma", range, 0.15);
   if (gamma > kCalmGamma && asked < 26)
@@ -61,10 +61,10 @@ void read_air(Reader& reader, rule::Heat& heat, int ny) {
 }
 
 int read_rays(Reader& reader) {
-  const std::int64_t asked = reader.integer("rays_per_face", 1, 16, 1);
+  const int asked = reader.integer("rays_per_face", 1, 16, 1);
   if (asked != 1 && asked != 4 && asked != 16)
     reader.fail("rays_per_face", fmt::format(" = {} is not one of 1, 4, 16", asked));
-  return static_cast<int>(asked);
+  return asked;
 }
 
 // Reads a key of a source, as far as its kind has the numbers.
@@ -96,7 +96,7 @@ rule::HeatSource read_source(Reader& reader) {
     std::vector<Reader> frames = reader.tables("keyframes");
     if (frames.empty()) reader.fail("keyframes", " is empty");
     for (Reader& frame : frames) {
-      const auto step = static_cast<std::uint32_t>(frame.integer("step", 0, kLastStep));
+      const std::uint32_t step = frame.integer("step", 0, kLastStep);
       if (!source.keys.empty() && step <= source.keys.back().step)
         frame.fail("step",
                    fmt::format(" = {} must be after the keyframe before, {}", step, source.keys.back().step));
@@ -129,7 +129,7 @@ rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings) {
   read_conduction(*reader, heat, warnings);
   heat.convection = static_cast<std::uint16_t>(
       std::min<long>(32767, std::lround(reader->number("convection", at_most(0.5), 0.0) * 65536)));
-  heat.visibility_every = static_cast<std::uint32_t>(reader->integer("visibility_every", 1, 1024, 8));
+  heat.visibility_every = reader->integer<std::uint32_t>("visibility_every", 1, 1024, 8);
   heat.rays_per_face = read_rays(*reader);
   if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
   reader->finish();

@@ -26,16 +26,19 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr double kLargestSide = 4096;
-constexpr std::int64_t kMostSteps = 0xFFFFFFFFll;
+constexpr std::uint32_t kMostSteps = 0xFFFFFFFF;
 
 state::Grid read_grid(Reader& root) {
   std::optional<Reader> reader = root.table("grid");
   if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
   const Vec3 size = reader->vector<3>("size", at_least(1).at_most(kLargestSide));
-  for (const double side : size)
-    if (side != (static_cast<int>(side))) reader->fail("size", " must be whole numbers of cells");
+  const auto whole = [&](double side) {
+    const int cells = static_cast<int>(side);
+    if (side != cells) reader->fail("size", " must be whole numbers of cells");
+    return cells;
+  };
+  const state::Grid grid{whole(size[0]), whole(size[1]), whole(size[2])};
   reader->finish();
-  const state::Grid grid{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
   check_memory(grid, reader->place("size"));
   return grid;
 }
@@ -43,11 +46,9 @@ state::Grid read_grid(Reader& root) {
 void read_run(Reader& root, Scene& scene) {
   std::optional<Reader> reader = root.table("run");
   if (!reader) return;
-  scene.steps = static_cast<std::uint32_t>(reader->integer("steps", 0, kMostSteps, scene.steps));
-  scene.frame_every =
-      static_cast<std::uint32_t>(reader->integer("frame_every", 1, kMostSteps, scene.frame_every));
-  scene.parameters.seed =
-      reader->integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(scene.parameters.seed));
+  scene.steps = reader->integer("steps", 0, kMostSteps, scene.steps);
+  scene.frame_every = reader->integer("frame_every", 1, kMostSteps, scene.frame_every);
+  scene.parameters.seed = reader->integer("seed", 0, INT64_MAX, scene.parameters.seed);
   reader->finish();
 }
 
@@ -132,7 +133,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   std::filesystem::path fields;
   if (start) {
     fields = start->file("fields");
-    scene.first_step = static_cast<std::uint32_t>(start->integer("step", 0, kMostSteps / 2, 0));
+    scene.first_step = start->integer("step", 0, kMostSteps / 2, 0);
     start->finish();
   }
   root.finish();

@@ -20,8 +20,8 @@ Camera read_camera(Reader& root, state::Grid grid) {
     camera.distance = reader->number("distance", at_most(4 * kLargestCoordinate), 0.0);
     camera.field_of_view = reader->number("field_of_view", at_least(1).at_most(120), camera.field_of_view);
     camera.orthographic = reader->choice("projection", {"perspective", "orthographic"}, 0) == 1;
-    camera.width = static_cast<int>(reader->integer("width", 16, kWidestPicture, camera.width));
-    camera.height = static_cast<int>(reader->integer("height", 16, kWidestPicture, camera.height));
+    camera.width = reader->integer("width", 16, kWidestPicture, camera.width);
+    camera.height = reader->integer("height", 16, kWidestPicture, camera.height);
     reader->finish();
   }
   return camera;
@@ -90,8 +90,8 @@ Look read_look(Reader& root) {
   look.clear = read_clear(*reader, look.clear);
   if (look.glow && look.clear != Vec3{}) reader->fail("clear", " is for matter that does not glow");
   look.frost = reader->number("frost", fraction(), look.frost);
-  look.smooth = static_cast<int>(reader->integer("smooth", 0, kMostSmooth, look.smooth));
-  look.smooth_solid = static_cast<int>(reader->integer("smooth_solid", 0, kMostSmooth, look.smooth_solid));
+  look.smooth = reader->integer("smooth", 0, kMostSmooth, look.smooth);
+  look.smooth_solid = reader->integer("smooth_solid", 0, kMostSmooth, look.smooth_solid);
   reader->finish();
   return look;
 }

@@ -25,7 +25,7 @@ struct Element {
 
 Element element_of(const std::string& type) {
   if (type.size() != 3 || std::string_view("<>|=").find(type[0]) == std::string_view::npos) return {};
-  const auto bytes = static_cast<std::size_t>(type[2] - '0');
+  const std::size_t bytes = type[2] - '0';
   const bool fits = type[1] == 'b' ? bytes == 1 : bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8;
   if (!fits || std::string_view("bui").find(type[1]) == std::string_view::npos) return {};
   return {type[1] == 'i', type[0] == '>', bytes};

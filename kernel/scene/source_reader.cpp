@@ -11,7 +11,7 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr std::int64_t kForever = 0xFFFFFFFFll;
+constexpr std::uint32_t kForever = 0xFFFFFFFF;
 constexpr double kLargestRadius = 8192;
 
 rule::Region read_region(Reader& reader) {
@@ -25,8 +25,8 @@ rule::Amount read_rate(Reader& reader) {
 
 template <class Source>
 void read_interval(Reader& reader, Source& source) {
-  source.from = static_cast<std::uint32_t>(reader.integer("from", 0, kForever, 0));
-  source.until = static_cast<std::uint32_t>(reader.integer("until", 0, kForever, kForever));
+  source.from = reader.integer("from", 0, kForever, 0);
+  source.until = reader.integer("until", 0, kForever, kForever);
   if (source.until <= source.from)
     reader.fail("until", fmt::format(" = {} must be after from = {}", source.until, source.from));
 }

@@ -67,7 +67,7 @@ void Fields<Real>::set_cell(int x, int y, int z, const Cell<Real>& cell) {
 template <class Real>
 double Fields<Real>::total(const std::vector<Real>& field) const {
   double sum = 0;
-  for (const Real value : field) sum += static_cast<double>(value);
+  for (const Real value : field) sum += value;
   return sum;
 }
 

@@ -14,7 +14,7 @@ namespace voxmelt::baseline {
 template <class Real>
 [[gnu::always_inline]] inline bool row_has(const Fields<Real>& f, const std::vector<std::uint8_t>& flags,
                                            std::size_t first) {
-  return std::memchr(flags.data() + first, 1, static_cast<std::size_t>(f.grid.x)) != nullptr;
+  return std::memchr(flags.data() + first, 1, f.grid.x) != nullptr;
 }
 template <class Real>
 [[gnu::always_inline]] inline bool row_has_matter(const Fields<Real>& f, std::size_t first) {
@@ -26,7 +26,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline bool marked_near(const Fields<Real>& f, std::size_t first, bool all_around) {
   const std::uint8_t* mark = f.row_marks.data() + first / f.row;
-  const auto layer = static_cast<std::ptrdiff_t>(f.slice / f.row);
+  const std::ptrdiff_t layer = f.slice / f.row;
   const auto beside = [=](std::ptrdiff_t dy) { return mark[dy - layer] || mark[dy] || mark[dy + layer]; };
   return beside(0) || (all_around && (beside(-1) || beside(1)));
 }

@@ -23,7 +23,7 @@ namespace voxmelt::baseline {
 // Lists the face neighbours +x, -x, +z, -z, then the diagonals, as distances in the arrays.
 template <class Real>
 [[gnu::always_inline]] inline std::array<std::ptrdiff_t, 8> horizontal_neighbours(const Fields<Real>& f) {
-  const auto z = static_cast<std::ptrdiff_t>(f.slice);
+  const std::ptrdiff_t z = f.slice;
   return {1, -1, z, -z, 1 + z, 1 - z, -1 + z, -1 - z};
 }
 

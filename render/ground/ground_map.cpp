@@ -24,7 +24,7 @@ std::int64_t fixed(double value, int one) {
 template <class Filter>
 ColumnHeights filtered(const ColumnHeights& heights, Vector cells, const Filter& filter) {
   ColumnHeights along(heights.size()), both(heights.size());
-  const auto x = static_cast<std::size_t>(cells.x), z = static_cast<std::size_t>(cells.z);
+  const std::size_t x = cells.x, z = cells.z;
   for (std::size_t k = 0; k < z; ++k) {
     const std::int32_t* row = heights.data() + k * x;
     for (std::size_t i = 0; i < x; ++i)

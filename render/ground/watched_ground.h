@@ -1,7 +1,6 @@
 // The ground that a ray meets and its paint are told to a watcher (render/rule/watch.h).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -39,12 +38,10 @@ picture::Vector cut_color(const GroundMap& map, const picture::GroundCrossing& c
     const std::int64_t along = crossing.face == Face::low_x || crossing.face == Face::high_x
                                    ? crossing.position.z
                                    : crossing.position.x;
-    const auto& bends =
-        map.bends()[static_cast<std::size_t>(crossing.face) - static_cast<std::size_t>(Face::low_x)];
+    const auto& bends = map.bends()[side_of(crossing.face)];
     const auto entry = [&](const auto& table, std::int64_t position) {
       const auto at = [&](std::int64_t i, std::int64_t) { return std::int32_t{table[i]}; };
-      return picture::bilinear(at, static_cast<std::int64_t>(table.size()), 1, picture::place_of(position),
-                               {});
+      return picture::bilinear(at, table.size(), 1, picture::place_of(position), {});
     };
     const std::int32_t bend = entry(bends, along);
     band = entry(map.bands(), (crossing.position.y + bend) << picture::kBandFineness);

@@ -13,7 +13,8 @@ using Rgb = std::array<std::uint8_t, 3>;
 struct Image {
   Image() = default;
   Image(int w, int h, Rgb fill = {0, 0, 0}) : width(w), height(h) {
-    pixels.assign(static_cast<std::size_t>(w) * h, fill);
+    const std::size_t row = w;
+    pixels.assign(row * h, fill);
   }
 
   Rgb& at(int x, int y) { return pixels[index(x, y)]; }
@@ -25,7 +26,7 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 
  private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+  std::size_t index(std::size_t x, std::size_t y) const { return y * width + x; }
 };
 static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
 
@@ -33,7 +34,8 @@ static_assert(sizeof(Rgb) == 3, "rows are handed to writers as bytes");
 struct Image16 {
   Image16() = default;
   Image16(int w, int h, int c) : width(w), height(h), channels(c) {
-    numbers.assign(static_cast<std::size_t>(w) * h * c, 0);
+    const std::size_t row = w;
+    numbers.assign(row * h * c, 0);
   }
 
   int width = 0, height = 0, channels = 1;

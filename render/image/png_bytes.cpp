@@ -71,7 +71,7 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
 
   // A row begins with a pixel of zeros. PNG's filter 1 subtracts the pixel on the left, and filter 2 the one
   // above.
-  const std::size_t bytes = static_cast<std::size_t>(format.width) * format.pixel;
+  const std::size_t bytes = format.width * format.pixel;
   Bytes row(format.pixel + bytes), above(format.pixel + bytes), by_above(bytes);
   Bytes filtered(format.height * (bytes + 1));
   for (int y = 0; y < format.height; ++y) {

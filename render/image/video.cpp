@@ -93,7 +93,7 @@ void VideoWriter::add(const Image& frame) {
     const ssize_t sent = send(to_ffmpeg_, bytes, left, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent >= 0) {
       bytes += sent;
-      left -= static_cast<std::size_t>(sent);
+      left -= sent;
       ffmpeg_.begin_wait(patience_, beside_);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       wait_for_room();

@@ -21,7 +21,7 @@ Values<std::uint16_t> along(const Values<std::uint16_t>& from, int side, std::si
 }  // namespace
 
 Levels::Levels(const DensityField& field) : grid_(field.grid()), levels_(grid_.cells()) {
-  const auto x = static_cast<std::size_t>(grid_.x), y = static_cast<std::size_t>(grid_.y);
+  const std::size_t x = grid_.x, y = grid_.y;
   const Values<std::uint16_t> filtered =
       along(along(along(field.intensity(), grid_.x, 1), grid_.y, x), grid_.z, x * y);
   std::transform(filtered.begin(), filtered.end(), levels_.data(), [](std::uint16_t intensity) {

@@ -15,7 +15,7 @@ class Levels {
   // Returns the level of any cell. Outside the grid it is that of air.
   std::int32_t operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     if (x < 0 || y < 0 || z < 0 || x >= grid_.x || y >= grid_.y || z >= grid_.z) return picture::kAir;
-    return levels_[grid_.index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))];
+    return levels_[grid_.index(x, y, z)];
   }
   picture::Vector cells() const { return {grid_.x, grid_.y, grid_.z}; }
 

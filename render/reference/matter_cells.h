@@ -19,7 +19,7 @@ class MatterCells {
   picture::Matter operator()(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const state::Grid& grid = field_.grid();
     if (levels_(x, y, z) == picture::kAir) return {};
-    const std::size_t i = grid.index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
+    const std::size_t i = grid.index(x, y, z);
     return picture::matter_of(field_.solid()[i], field_.liquid()[i], field_.heat()[i],
                               field_.has_obstacles() ? field_.obstacle()[i] : 0, look_);
   }

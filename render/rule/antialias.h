@@ -20,10 +20,10 @@ inline constexpr std::array<Sub, 1> kMiddle{{{32, 32}}};
 // come from a search (docs/results/picture-error.md). They err least over edges of any direction.
 template <std::size_t kCount>
 constexpr std::array<Sub, kCount> rooks(const std::array<std::int32_t, kCount>& rows) {
-  constexpr std::int32_t kApart = 64 / static_cast<std::int32_t>(kCount);
+  constexpr std::int32_t kAll = kCount, kApart = 64 / kAll;
   std::array<Sub, kCount> values{};
-  for (std::size_t i = 0; i < kCount; ++i)
-    values[i] = {kApart * static_cast<std::int32_t>(i) + kApart / 2, kApart * rows[i] + kApart / 2};
+  for (std::int32_t i = 0; i < kAll; ++i)
+    values[i] = {kApart * i + kApart / 2, kApart * rows[i] + kApart / 2};
   return values;
 }
 inline constexpr auto kEight = rooks<8>({3, 6, 0, 5, 2, 7, 1, 4});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/rule/crossing.h"
@@ -32,6 +33,8 @@ VOXMELT_RULE bool in_ground(const Heights& heights, Vector cells, Vector p, Watc
 
 // Names the face through which a ray enters. A ray that starts in the ground enters through none.
 enum class Face : std::uint8_t { none, low_x, high_x, low_z, high_z, under, top };
+// Returns the number of a side, from low_x on.
+constexpr std::size_t side_of(Face face) { return static_cast<std::size_t>(face) - 1; }
 
 // Returns the face between a position outside of the ground and a near one inside.
 VOXMELT_RULE Face face_before(Vector cells, Vector outside) {

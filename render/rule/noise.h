@@ -33,9 +33,7 @@ VOXMELT_RULE std::int32_t lattice(Vector point, std::uint32_t kind) {
 
 // Returns the noise at a position in 2^-20 of the lattice's spacing.
 VOXMELT_RULE std::int32_t noise(Vector position, std::uint32_t kind) {
-  const auto weight = [](std::int64_t a) {
-    return smooth(static_cast<std::int32_t>((a >> (kPositionBits - kWeightBits)) & (kWeights - 1)));
-  };
+  const auto weight = [](std::int64_t a) { return smooth(weight_at(a)); };
   const Vector low = position >> kPositionBits;
   const std::int32_t wx = weight(position.x), wy = weight(position.y), wz = weight(position.z);
   const auto along_x = [&](std::int64_t dy, std::int64_t dz) {

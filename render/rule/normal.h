@@ -73,7 +73,7 @@ struct Spline {
 
 VOXMELT_RULE Spline spline_of(std::int64_t position) {
   const std::int64_t shifted = position + kCell / (2 * kWeights);
-  const auto u = static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1));
+  const std::int32_t u = weight_at(shifted);
   const std::int32_t before = kWeights - u,
                      behind = u;  // 1/2 - f and 1/2 + f, where f is the distance from the middle
   const std::int32_t low = (before * before) >> 9, high = (behind * behind) >> 9;

@@ -23,6 +23,11 @@ VOXMELT_RULE std::int32_t prefiltered(std::int32_t before, std::int32_t here, st
 inline constexpr int kWeightBits = 8;
 inline constexpr std::int32_t kWeights = 1 << kWeightBits;
 
+// Returns the fraction of a position, in 256ths.
+VOXMELT_RULE std::int32_t weight_at(std::int64_t position) {
+  return static_cast<std::int32_t>((position >> (kPositionBits - kWeightBits)) & (kWeights - 1));
+}
+
 // Holds the cell below a position, along an axis, and the weight of the cell above it, to the nearest 256th.
 struct Place {
   std::int64_t cell = 0;
@@ -33,8 +38,7 @@ inline constexpr std::int64_t kToPlace = kCell / (2 * kWeights) - kCell / 2;
 
 VOXMELT_RULE Place place_of(std::int64_t position) {
   const std::int64_t shifted = position + kToPlace;
-  return {shifted >> kPositionBits,
-          static_cast<std::int32_t>((shifted >> (kPositionBits - kWeightBits)) & (kWeights - 1))};
+  return {shifted >> kPositionBits, weight_at(shifted)};
 }
 
 // Tells where something between eight cells is looked up.

@@ -107,9 +107,8 @@ VOXMELT_RULE Color mirrored(const Paint& paint, Vector direction, Watch watch = 
   const auto height =
       static_cast<std::int32_t>(std::clamp<std::int64_t>(direction.y + kLength, 0, 2 * kLength));
   const std::uint32_t packed = paint.surroundings[height >> 4];
-  const Color around{static_cast<std::int32_t>(packed & 2047) << 1,
-                     static_cast<std::int32_t>((packed >> 11) & 2047) << 1,
-                     static_cast<std::int32_t>(packed >> 22) << 2};
+  const std::int32_t red = packed & 2047, green = (packed >> 11) & 2047, blue = packed >> 22;
+  const Color around{red << 1, green << 1, blue << 2};
   const auto step = [&](Vector light, std::int32_t low, std::int32_t high) {
     return smooth_light(low, high, cosine(direction, light) >> 2);
   };

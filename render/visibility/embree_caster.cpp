@@ -125,8 +125,7 @@ struct EmbreeCaster::Scene {
 namespace {
 
 Cell first_cell(const Opaque& opaque, std::size_t brick) {
-  const auto bx = static_cast<std::size_t>(opaque.bricks().x),
-             by = static_cast<std::size_t>(opaque.bricks().y);
+  const std::size_t bx = opaque.bricks().x, by = opaque.bricks().y;
   return {8 * static_cast<int>(brick % bx), 8 * static_cast<int>(brick / bx % by),
           8 * static_cast<int>(brick / bx / by)};
 }

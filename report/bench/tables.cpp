@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -48,9 +47,7 @@ std::string case_table(const Findings& findings, Subject subject) {
   std::string last;
   for (const Case& one : findings.cases) {
     if (one.subject != subject) continue;
-    const auto phase = [&](step::Phase p) {
-      return milliseconds(one.step.phase[static_cast<std::size_t>(p)]);
-    };
+    const auto phase = [&](step::Phase p) { return milliseconds(one.step.phase[index_of(p)]); };
     using enum step::Phase;
     const std::string phases =
         flow ? fmt::format("{} = {} + {} + {}", milliseconds(one.seconds), phase(gravity), phase(spread),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -75,7 +76,7 @@ std::optional<RayId> Checker::ray_under_way() const {
     if (places_[i] < 0) continue;
     const std::size_t pixel = i / samples_;
     return RayId{static_cast<std::int32_t>(pixel % width_), static_cast<std::int32_t>(pixel / width_),
-                 static_cast<std::int16_t>(i % samples_), 0};
+                 static_cast<std::int32_t>(i % samples_), 0};
   }
   return {};
 }
@@ -372,7 +373,7 @@ void Checker::entered(int, std::int64_t, const PixelToken* token) {
 // Beyond the edges of the picture, a tile holds zeros.
 void Checker::entered(int, std::int64_t, const LineRequest* token) {
   const std::int64_t from = token->address - frame_;
-  if (from < 0 || from + kBurst > static_cast<std::int64_t>(bytes_.size()))
+  if (from < 0 || from + kBurst > std::ssize(bytes_))
     return compare("write", {}, "address in the frame", std::int64_t{0}, from);
   const auto tile = static_cast<int>(from / kTileBytes);
   const RayId first{tile % tiles_x_ * kTileSide, tile / tiles_x_ * kTileSide, 0, 0};

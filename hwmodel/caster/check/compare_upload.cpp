@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -95,7 +96,7 @@ void compare_ground(Comparison& to, const Memory& memory, const render::GroundDa
   const std::vector<picture::Texel>& texels = ground.map->texels();
   if (texels.empty()) return;
   const int wide = static_cast<int>(ground.cells.x) << ground.fineness;
-  for (int i = 0; i < static_cast<int>(texels.size()); ++i) {
+  for (int i = 0; i < std::ssize(texels); ++i) {
     const int x = i % wide, z = i / wide;
     const auto texel = to.read<Texel>(memory.texels.address(memory.texels.line_at(x / 4, 0, z / 4)) +
                                       memory.texels.offset(x, 0, z));
@@ -157,15 +158,14 @@ void compare_bounds(Comparison& to, const GroundBlocks& blocks, const render::Gr
         raise(fine[i].slope_z, std::abs(height(cx, cz + 1) - height(cx, cz)));
       });
     }
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    const state::Grid at{static_cast<int>(i) % wide, 0, static_cast<int>(i) / wide};
+  for (int i = 0; i < std::ssize(fine); ++i) {
+    const state::Grid at{i % wide, 0, i / wide};
     to.word("bound of heights", {}, at, fine[i].highest, blocks.fine[i].highest);
     to.word("bound of slopes along x", {}, at, fine[i].slope_x, blocks.fine[i].slope_x);
     to.word("bound of slopes along z", {}, at, fine[i].slope_z, blocks.fine[i].slope_z);
   }
-  for (std::size_t i = 0; i < rough.size(); ++i)
-    to.word("bound of heights, 16 x 16 cells", {},
-            {static_cast<int>(i) % coarse, 0, static_cast<int>(i) / coarse}, rough[i], blocks.coarse[i]);
+  for (int i = 0; i < std::ssize(rough); ++i)
+    to.word("bound of heights, 16 x 16 cells", {}, {i % coarse, 0, i / coarse}, rough[i], blocks.coarse[i]);
 }
 
 // Bit 31 of a record says that a block is empty. The low byte is its distance, or the slope's bound.

@@ -23,7 +23,8 @@ void TileCheck::begin_pass(const Window& window) {
 }
 
 std::size_t TileCheck::index_of(std::int32_t x, std::int32_t y) const {
-  return static_cast<std::size_t>(y / kTileSide) * tiles_x_ + (x / kTileSide);
+  const std::size_t row = y / kTileSide;
+  return row * tiles_x_ + x / kTileSide;
 }
 
 void TileCheck::left(int, std::int64_t, const TileJob* job) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
@@ -57,7 +59,7 @@ void Transit::look_for_lost() {
   for (int i = 0; i < caster_.pipes(); ++i)
     for (const Pipe::ChannelState& channel : caster_.pipe(i).channels()) {
       const Line& the_line = line(channel.number);
-      if (static_cast<int>(the_line.tokens.size()) <= channel.count) continue;
+      if (std::ssize(the_line.tokens) <= channel.count) continue;
       const RayId& id = the_line.tokens[channel.count].id;
       return tell(channel.number, id, "leaves", text_of(id), "nothing");
     }

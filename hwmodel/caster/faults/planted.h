@@ -77,7 +77,7 @@ class Planted : public check::Planted<FaultPlan> {
     const std::int64_t line =
         layout.apron ? layout.line_at(bx, by, bz)
                      : layout.line_at(x >> layout.bits[0], y >> layout.bits[1], z >> layout.bits[2]);
-    if (line == kNoLine) return static_cast<std::int16_t>(kAir);
+    if (line == kNoLine) return kAir;
     std::int16_t word = 0;
     const int offset = layout.apron ? layout.apron_offset(x, y, z, bx, by, bz) : layout.offset(x, y, z);
     std::memcpy(&word, memory_->bytes.data() + layout.address(line) + offset, sizeof word);

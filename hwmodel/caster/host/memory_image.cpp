@@ -144,8 +144,7 @@ Memory room_for(const render::PictureData& data, const Configuration& configurat
   Layout frame;
   take_room(memory, frame, 0);
   memory.frame = frame.base;
-  memory.bytes.resize(memory.bytes.size() +
-                      2 * static_cast<std::size_t>(frame_bytes(data.width, data.height)));
+  memory.bytes.resize(memory.bytes.size() + 2 * frame_bytes(data.width, data.height));
   return memory;
 }
 
@@ -178,8 +177,9 @@ void texel_lines(const render::PictureData& data, const Layout& layout, const Li
   if (!data.ground.any || data.ground.map->texels().empty()) return;
   const std::vector<picture::Texel>& texels = data.ground.map->texels();
   const std::array<int, 3> count = texel_count(data);
+  const std::size_t row = count[0];
   dense_lines<Texel>(layout, count, sink, [&](int x, int, int z) {
-    const picture::Texel& t = texels[static_cast<std::size_t>(z) * count[0] + x];
+    const picture::Texel& t = texels[z * row + x];
     return Texel{t.red, t.green, t.blue, t.bump_x, t.bump_z};
   });
 }

@@ -46,7 +46,7 @@ inline std::int64_t largest(Vec v) {
 }
 inline std::int64_t dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // Returns the least n with a < 2^n, by a leading-zero count.
-inline int bits_of(std::int64_t a) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(a))); }
+inline int bits_of(std::int64_t a) { return static_cast<int>(std::bit_width<std::uint64_t>(a)); }
 
 // Takes two products of 16 bits by 9.
 inline std::int64_t blended(std::int64_t a, std::int64_t b, std::int64_t weight) {

@@ -65,8 +65,7 @@ void wires_of(const Gathered<Request, Word, kMost>& answer, const ContextBits& c
       const std::size_t bytes = std::min<std::size_t>(8, sizeof(Word) - from);
       std::int64_t value = 0;
       std::memcpy(&value, reinterpret_cast<const char*>(&answer.words[i]) + from, bytes);
-      visit(WireName{"word", from == 0 ? "" : "_more", static_cast<int>(i)}, static_cast<int>(8 * bytes),
-            false, value);
+      visit(WireName("word", from == 0 ? "" : "_more", i), static_cast<int>(8 * bytes), false, value);
     }
 }
 template <class Visit>

@@ -102,7 +102,7 @@ inline Rgb seen_through(const LookRegisters& look, const Passage& passage, bool 
     const SInt<32> passes = std::int64_t{passage.passed[c]} * behind[c];
     const std::int64_t sum =
         passage.mirrored[c] + ((passage.scattered[c] + (on_ground ? std::int64_t{passes} : 0)) >> 15);
-    const std::int64_t pressed = look.tone[static_cast<std::size_t>(std::clamp<std::int64_t>(sum, 0, 12287))];
+    const std::int64_t pressed = look.tone[std::clamp<std::int64_t>(sum, 0, 12287)];
     light[c] = static_cast<std::int32_t>(on_ground ? pressed
                                                    : std::min<std::int64_t>(pressed + (passes >> 15), 4096));
   }

@@ -20,7 +20,7 @@ int bits_of_token(const Of&... tokens) {
   return sum;
 }
 
-int log2_of(int power) { return std::countr_zero(static_cast<unsigned>(power)); }
+int log2_of(int power) { return std::countr_zero<unsigned>(power); }
 int slots_of(const CacheShape& shape) { return shape.lines() + shape.spare; }
 int slot_bits(const CacheShape& shape) { return bits_for(slots_of(shape) - 1); }
 

@@ -54,7 +54,7 @@ class CrossingStage final : public Stage {
         asking_.pop_front();
         const Context& context = at(i);
         *ask_->put() = {
-            Asker::crossing, static_cast<std::int16_t>(i), context.hit.ray.id, context.hit.k,
+            Asker::crossing, i, context.hit.ray.id, context.hit.k,
             on_wires<32>(context.halved < 3 ? middle_of(context.bracket) : context.bracket.outside)};
         moved = true;
       } else {

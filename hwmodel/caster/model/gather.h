@@ -85,7 +85,7 @@ class Gather final : public LineClient {
   void connect_out(std::vector<Fifo<Out>*> out) { out_ = std::move(out); }
 
   void arrived(const LineReply& reply, const std::uint8_t* bytes) override {
-    const auto slot = static_cast<std::size_t>(reply.slot);
+    const std::size_t slot = reply.slot;
     // The line may be meant for another cache, which a checker tells. Then this one may have no such slot, or
     // none at all.
     if (slot >= arrived_.size() || store_.empty()) return;
@@ -129,14 +129,14 @@ class Gather final : public LineClient {
   const Layout& layout() const { return layout_; }
   const Cache& cache() const { return cache_; }
   const std::uint8_t* bytes_in(int slot) const {
-    return slot < 0 ? nullptr : store_.data() + static_cast<std::size_t>(slot) * line_bytes();
+    return slot < 0 ? nullptr : store_.data() + slot * line_bytes();
   }
   bool has_arrived(int slot) const { return arrived_[slot] != 0; }
   std::int64_t line_of(const Entry& entry, int which) const {
     const Places& p = entry.places;
     if (layout_.apron)
       return layout_.line_at(p.low[0] >> kBrickBits, p.low[1] >> kBrickBits, p.low[2] >> kBrickBits);
-    const auto last = static_cast<std::size_t>(p.side - 1), top = static_cast<std::size_t>(p.high - 1);
+    const std::int32_t last = p.side - 1, top = p.high - 1;
     const int ix = which % entry.lines[0], iy = which / entry.lines[0] % entry.lines[1],
               iz = which / entry.lines[0] / entry.lines[1];
     return layout_.line_at(p.x[ix == 0 ? 0 : last] >> layout_.bits[0],
@@ -147,7 +147,7 @@ class Gather final : public LineClient {
   template <class BytesOf>
   void read_words(const Entry& entry, const BytesOf& bytes_of, Word* to) const {
     const Places& p = entry.places;
-    const auto side = static_cast<std::size_t>(p.side), high = static_cast<std::size_t>(p.high);
+    const std::size_t side = p.side, high = p.high;
     for (std::size_t z = 0; z < side; ++z)
       for (std::size_t y = 0; y < high; ++y)
         for (std::size_t x = 0; x < side; ++x, ++to) {
@@ -238,7 +238,7 @@ class Gather final : public LineClient {
   Did read() {
     if (count_ == 0) return Did::starved;
     Entry& entry = queue_[head_];
-    const auto all = static_cast<std::size_t>(entry.lines[0] * entry.lines[1] * entry.lines[2]);
+    const std::size_t all = entry.lines[0] * entry.lines[1] * entry.lines[2];
     for (std::size_t i = 0; i < all; ++i)
       if (entry.slots[i] >= 0 && !has_arrived(entry.slots[i]) && !faults_.reads_early()) return Did::memory;
     Fifo<Out>& out = *out_[entry.request.kind_index()];

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/caster/model/arithmetic.h"
 #include "hwmodel/caster/model/ray.h"
 #include "hwmodel/caster/model/registers.h"
+#include "hwmodel/fabric/index_of.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -133,7 +135,7 @@ template <class Value>
 std::int64_t along_table(const std::vector<Value>& table, std::int64_t position) {
   const Spot at = spot_of(position);
   const auto entry = [&](std::int64_t i) {
-    return std::int64_t{table[std::clamp<std::int64_t>(i, 0, static_cast<std::int64_t>(table.size()) - 1)]};
+    return std::int64_t{table[std::clamp<std::int64_t>(i, 0, std::ssize(table) - 1)]};
   };
   return blended(entry(at.cell), entry(at.cell + 1), at.weight);
 }
@@ -142,7 +144,7 @@ inline Rgb cut_color(const GroundRegisters& ground, Vec p, Face face) {
   std::int64_t band = 0;
   if (ground.textured && face != Face::under && face != Face::none) {
     const bool by_z = face == Face::low_x || face == Face::high_x;
-    const std::int64_t bend = along_table(ground.bends[static_cast<std::size_t>(face) - 1], by_z ? p.z : p.x);
+    const std::int64_t bend = along_table(ground.bends[index_of(face) - 1], by_z ? p.z : p.x);
     band = along_table(ground.bands, (p.y + bend) << 2);
   }
   Rgb color{};

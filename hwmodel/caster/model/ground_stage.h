@@ -5,8 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/caster/model/ground.h"
@@ -63,7 +65,7 @@ class GroundStage final : public Stage {
         blocked = true;
       }
     }
-    const int passing = std::min(searchers_, static_cast<int>(passing_.size()));
+    const auto passing = std::min<std::ptrdiff_t>(searchers_, std::ssize(passing_));
     for (int i = 0; i < passing; ++i) {
       const int ray = passing_.front();
       passing_.pop_front();
@@ -132,7 +134,7 @@ class GroundStage final : public Stage {
     ask.count = {static_cast<std::int32_t>(registers_.cells.x), 1,
                  static_cast<std::int32_t>(registers_.cells.z)};
     ask.asker = 0;
-    ask.context = static_cast<std::int16_t>(i);
+    ask.context = i;
     ask.side = NearColumns::kSide;
     ask.id = search.ray.id;
   }

@@ -76,10 +76,9 @@ struct RayCaster::Machine {
     part.waits = [&served_by] { return served_by.works(); };
     part.done = [this] { return lines->counts().written_bytes == bytes_at_end; };
     part.ended = [this] { end_pass(); };
-    const std::size_t count = c.pipes;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (int i = 0; i < c.pipes; ++i) {
       const std::string pipe = "pipe " + std::to_string(i) + ": ";
-      const int channel = 100 * static_cast<int>(i) + 90;
+      const int channel = 100 * i + 90;
       const auto link = [&]<class Word>(std::vector<std::unique_ptr<Link<Word>>>& links, const char* name,
                                         int number) {
         links.push_back(
@@ -88,7 +87,7 @@ struct RayCaster::Machine {
       link(jobs, "dealer -> tiles", 0);
       link(requests, "memory port -> memory", 1);
       link(replies, "memory -> memory port", 2);
-      pipes.push_back(make(registers, frame, memory, configuration, static_cast<int>(i)));
+      pipes.push_back(make(registers, frame, memory, configuration, i));
       pipes.back()->connect(jobs.back()->fifo(), requests.back()->fifo(), replies.back()->fifo());
       dealer.connect(jobs.back()->fifo());
       lines->connect(requests.back()->fifo(), replies.back()->fifo());

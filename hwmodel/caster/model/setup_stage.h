@@ -60,7 +60,7 @@ class SetupStage final : public Stage {
     const std::int32_t x = tile.x + at % kTileSide, y = tile.y + at / kTileSide;
     const Sub sub = sub_of(tile.samples, open_parts.sample);
     RayToken& token = *out_->put();
-    token.id = {x, y, static_cast<std::int16_t>(open_parts.sample), tile.buffer};
+    token.id = {x, y, open_parts.sample, tile.buffer};
     token.ray = ray_of(registers_.camera, 64 * std::int64_t{x} + sub.across, 64 * std::int64_t{y} + sub.down);
     faults_.set_up(registers_.camera, tile.samples, token);
     if (++open_parts.sample < tile.samples) return;

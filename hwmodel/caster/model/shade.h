@@ -21,11 +21,10 @@ inline MatterBytes matter_of(const std::uint32_t* words, const Spots& at) {
   const auto byte = [&](int shift) {
     const auto w = [&](std::size_t i) { return std::int64_t{(words[i] >> shift) & 255}; };
     const auto row = [&](std::size_t i) { return blended(w(i), w(i + 1), at.x.weight); };
-    return UInt<8>(
-        blended(blended(row(0), row(2), at.y.weight), blended(row(4), row(6), at.y.weight), at.z.weight));
+    return static_cast<std::int32_t>(UInt<8>(
+        blended(blended(row(0), row(2), at.y.weight), blended(row(4), row(6), at.y.weight), at.z.weight)));
   };
-  return {static_cast<std::int32_t>(byte(0)), static_cast<std::int32_t>(byte(8)),
-          static_cast<std::int32_t>(byte(16))};
+  return {byte(0), byte(8), byte(16)};
 }
 
 using LightWord = std::array<std::uint8_t, 16>;  // cell of light: lamp, open, nothing, glow
@@ -138,9 +137,8 @@ inline Mirrored mirrored_of(const LookRegisters& look, Vec normal, Vec to_eye, c
 
   const std::int64_t entry = std::clamp<std::int64_t>(mirrored.reflected.y + (1 << 14), 0, 1 << 15) >> 4;
   const std::uint32_t packed = look.surroundings[entry];
-  const Rgb surroundings{static_cast<std::int32_t>((packed & 2047) * 2),
-                         static_cast<std::int32_t>(((packed >> 11) & 2047) * 2),
-                         static_cast<std::int32_t>((packed >> 22) * 4)};
+  const std::int32_t red = packed & 2047, green = (packed >> 11) & 2047, blue = packed >> 22;
+  const Rgb surroundings{2 * red, 2 * green, 4 * blue};
   const std::int64_t lamp =
       smooth(look.lamp_low, look.lamp_high, cosine(mirrored.reflected, look.to_light) >> 2);
   const std::int64_t strip = smooth(look.strip_low, 3973, cosine(mirrored.reflected, look.to_strip) >> 2);

@@ -85,8 +85,7 @@ class StretchStage final : public Stage {
     serve(leaving_, *exit_, [&](int i) { leave(i); });
     serve(going_, *onward_, [&](int i) {
       const Context& context = at(i);
-      *onward_->put() = {static_cast<std::int16_t>(i), context.k + 1, context.at + context.ray.ray.step,
-                         context.beyond};
+      *onward_->put() = {i, context.k + 1, context.at + context.ray.ray.step, context.beyond};
     });
     serve(telling_, *out_, [&](int i) { tell(i); });
     if (answer_->valid()) {
@@ -223,7 +222,7 @@ class StretchStage final : public Stage {
     to.step = context.ray.ray.step;
     to.to_eye = context.to_eye;
     if (event.kind == Kind::ground) to.normal = context.ray.ground.normal;
-    to.clear = {static_cast<std::int16_t>(i), event.leaves, context.told++, event.way, {}};
+    to.clear = {i, event.leaves, context.told++, event.way, {}};
     faults_.told(to);
     if (++context.first < context.count) return telling_.push_front(i);
     context.first = context.count = 0;
@@ -231,21 +230,14 @@ class StretchStage final : public Stage {
   }
   void ask(int i) {
     const Context& context = at(i);
-    *ask_->put() = {Asker::stretch, static_cast<std::int16_t>(i), context.ray.id, UInt<27>(context.k + 1),
+    *ask_->put() = {Asker::stretch, i, context.ray.id, UInt<27>(context.k + 1),
                     on_wires<32>(context.at + context.ray.ray.step)};
     ++asked_;
   }
   void leave(int i) {
     const Context& context = at(i);
-    *exit_->put() = {static_cast<std::int16_t>(i),
-                     context.ray,
-                     context.k,
-                     context.at,
-                     context.level,
-                     true,
-                     context.beyond,
-                     context.span,
-                     true};
+    *exit_->put() = {i,    context.ray,    context.k,    context.at, context.level,
+                     true, context.beyond, context.span, true};
   }
 
   const Registers& registers_;

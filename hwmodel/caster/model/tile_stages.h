@@ -108,8 +108,7 @@ class TileStage final : public Stage, public LineClient {
     if (pixels == 0)
       buffers_.complete.push_back(i);
     else
-      *out_->put() = {job.x, job.y, static_cast<std::int16_t>(i), static_cast<std::int16_t>(buffer.samples),
-                      pixels};
+      *out_->put() = {job.x, job.y, i, buffer.samples, pixels};
     in_->get();
     asked_ = 0;
     return Did::busy;
@@ -182,8 +181,7 @@ class PixelStage final : public Stage {
     if (!out_->ready()) return Did::blocked;
     const PressedToken& token = *in_->get();
     TileBuffer& buffer = buffers_.at(token.id.buffer);
-    const auto at =
-        static_cast<std::size_t>((token.id.y & (kTileSide - 1)) * kTileSide + (token.id.x & (kTileSide - 1)));
+    const std::size_t at = (token.id.y & (kTileSide - 1)) * kTileSide + (token.id.x & (kTileSide - 1));
     for (std::size_t c = 0; c < 3; ++c) buffer.sums[at][c] += token.pressed[c];
     if (++buffer.counts[at] < buffer.samples) return Did::busy;
     PixelToken& pixel = *out_->put();

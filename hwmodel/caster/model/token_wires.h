@@ -10,6 +10,7 @@
 #include "hwmodel/caster/model/arithmetic.h"
 #include "hwmodel/caster/model/tokens.h"
 #include "hwmodel/caster/model/walk_stage.h"
+#include "hwmodel/fabric/index_of.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -23,9 +24,9 @@ struct ContextBits {
 struct WireName {
   const char* stem;
   const char* part = "";
-  int index = -1;
+  std::int64_t index = -1;
 
-  constexpr WireName(const char* its_stem, const char* its = "", int which = -1)
+  constexpr WireName(const char* its_stem, const char* its = "", std::int64_t which = -1)
       : stem(its_stem), part(its), index(which) {}
   std::string text() const {
     std::string all = stem;
@@ -63,7 +64,7 @@ void wires_of(const GroundHit& hit, Visit&& visit) {
   visit(WireName{"ground_found"}, 1, false, hit.found ? 1 : 0);
   visit(WireName{"ground_part"}, 35, false, hit.found ? hit.part : 0);
   vector_wires("ground_position", hit.position, 32, visit);
-  visit(WireName{"ground_face"}, 3, false, static_cast<std::int64_t>(hit.face));
+  visit(WireName{"ground_face"}, 3, false, index_of(hit.face));
   vector_wires("ground_normal", hit.normal, 16, visit);
 }
 
@@ -73,8 +74,7 @@ void wires_of(const TileOrder& order, const ContextBits& context, Visit&& visit)
   visit(WireName{"y"}, 13, false, order.y);
   visit(WireName{"buffer"}, context.buffers, false, order.buffer);
   visit(WireName{"samples"}, 6, false, order.samples);
-  for (int i = 0; i < 64; ++i)
-    visit(WireName{"pixel", "", i}, 1, false, static_cast<std::int64_t>(order.pixels >> i & 1));
+  for (int i = 0; i < 64; ++i) visit(WireName{"pixel", "", i}, 1, false, order.pixels >> i & 1);
 }
 template <class Visit>
 void wires_of(const RayToken& token, const ContextBits& context, Visit&& visit) {
@@ -89,7 +89,7 @@ void wires_of(const GroundedRay& token, const ContextBits& context, Visit&& visi
 }
 template <class Visit>
 void wires_of(const LevelRequest& request, const ContextBits& context, Visit&& visit) {
-  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
+  visit(WireName{"asker"}, 2, false, index_of(request.asker));
   visit(WireName{"context"}, context.rays, false, request.context);
   vector_wires("at", request.at, 32, visit);
 }
@@ -98,17 +98,16 @@ template <class Visit>
 void wires_of(const Levels& levels, const ContextBits& context, Visit&& visit) {
   const LevelRequest& request = levels.request;
   const std::size_t words = request.kind_index() == 1 ? 27 : 8;
-  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(request.asker));
+  visit(WireName{"asker"}, 2, false, index_of(request.asker));
   visit(WireName{"context"}, context.rays, false, request.context);
   visit(WireName{"weight_x"}, 8, false, weight_of(request.at.x));
   visit(WireName{"weight_y"}, 8, false, weight_of(request.at.y));
   visit(WireName{"weight_z"}, 8, false, weight_of(request.at.z));
-  for (std::size_t i = 0; i < words; ++i)
-    visit(WireName{"word", "", static_cast<int>(i)}, 16, true, levels.words[i]);
+  for (std::size_t i = 0; i < words; ++i) visit(WireName("word", "", i), 16, true, levels.words[i]);
 }
 template <class Visit>
 void wires_of(const LevelToken& token, const ContextBits& context, Visit&& visit) {
-  visit(WireName{"asker"}, 2, false, static_cast<std::int64_t>(token.request.asker));
+  visit(WireName{"asker"}, 2, false, index_of(token.request.asker));
   visit(WireName{"context"}, context.rays, false, token.request.context);
   visit(WireName{"level"}, 16, true, token.level);
 }
@@ -180,7 +179,7 @@ void wires_of(const PixelToken& token, const ContextBits& context, Visit&& visit
 template <class Sides, class Visit>
 void side_wires(const char* name, const Sides& sides, Visit&& visit) {
   for (std::size_t i = 0; i < sides.size(); ++i)
-    visit(WireName{name, "", static_cast<int>(i)}, 8, false, std::int64_t{sides[i]});
+    visit(WireName(name, "", i), 8, false, std::int64_t{sides[i]});
 }
 
 // A surface passes the stages that work on it in this order. Its wires hold what is there and still needed.
@@ -190,10 +189,10 @@ void wires_of(const Surface& s, Behind stage, const ContextBits& context, Visit&
   const auto from = [&](Behind first) { return stage >= first; };
   const auto until = [&](Behind last) { return stage <= last; };
   wires_of(s.id, context, visit);
-  visit(WireName{"kind"}, 2, false, static_cast<std::int64_t>(s.kind));
+  visit(WireName{"kind"}, 2, false, index_of(s.kind));
   if (until(Behind::paint)) {
     visit(WireName{"inside"}, 1, false, s.inside ? 1 : 0);
-    visit(WireName{"face"}, 3, false, static_cast<std::int64_t>(s.face));
+    visit(WireName{"face"}, 3, false, index_of(s.face));
   }
   if (until(Behind::matter)) vector_wires("position", s.position, 32, visit);
   if (until(Behind::arriving)) vector_wires("to_eye", s.to_eye, 16, visit);

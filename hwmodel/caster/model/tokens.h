@@ -24,7 +24,7 @@ struct TileJob {
 // Adds a buffer to a tile, and the pixels that are to be drawn: bit 8 y + x.
 struct TileOrder {
   std::int32_t x = 0, y = 0;
-  std::int16_t buffer = 0, samples = 1;
+  std::int32_t buffer = 0, samples = 1;
   std::uint64_t pixels = 0;
 };
 
@@ -58,14 +58,15 @@ struct MetToken {
   Crossing matter;
   // A ray that goes on through clear matter has these. They tell its place in the walk, how often it has
   // entered matter before, whether it leaves it here, and the sample in matter.
-  std::int16_t context = 0, span = 0;
+  std::int32_t context = 0;
+  std::int16_t span = 0;
   bool leaves = false;
   std::int16_t level = 0;
   Vec at{};
 };
 // Returns such a ray to the walk: it has left matter, and sample k is known to be air.
 struct OnwardToken {
-  std::int16_t context = 0;
+  std::int32_t context = 0;
   std::int64_t k = 0;
   Vec at;
   std::int16_t level = 0;
@@ -75,7 +76,7 @@ struct OnwardToken {
 enum class Asker : std::uint8_t { walk, crossing, normal, stretch };
 struct LevelRequest {
   Asker asker = Asker::walk;
-  std::int16_t context = 0;  // number of the ray under way
+  std::int32_t context = 0;  // number of the ray under way
   RayId id;
   std::int64_t k = 0;  // number of the sample in the walk
   Vec at;              // in the lattice
@@ -132,7 +133,7 @@ using MatterGather = Gather<MatterRequest, std::uint32_t, 8>;
 struct ClampedRequest {
   Spots at;
   std::array<std::int32_t, 3> count{1, 1, 1};
-  std::int16_t asker = 0, context = 0;
+  std::int32_t asker = 0, context = 0;
   int side = 2;
   RayId id;
 
@@ -155,7 +156,7 @@ using TexelGather = Gather<ClampedRequest, Texel, 8>;
 
 // Tells of an event on a ray through clear matter which of the rays under way it is on, and its number there.
 struct ClearEvent {
-  std::int16_t context = 0;
+  std::int32_t context = 0;
   bool leaves = false;  // the ray leaves matter here
   std::int32_t event = 0;
   std::int32_t way = 0;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/caster/model/no_faults.h"
@@ -18,7 +20,7 @@ namespace voxmelt::hwmodel::raycast {
 
 // Takes a ray in matter to the crossing. The ray's place in the walk stays taken until then.
 struct HitToken {
-  std::int16_t context = 0;
+  std::int32_t context = 0;
   GroundedRay ray;
   std::int64_t k = 0;
   Vec at;                     // place of sample k, in the lattice
@@ -80,9 +82,7 @@ class WalkStage final : public Stage {
       if (missed_->ready()) {
         const int i = lost_.front();
         const Context& context = at(i);
-        *missed_->put() = {
-            context.ray.id, context.ray.ray, context.ray.ground, {}, static_cast<std::int16_t>(i),
-            context.span};
+        *missed_->put() = {context.ray.id, context.ray.ray, context.ray.ground, {}, i, context.span};
         crossed(i);
         lost_.pop_front();
         moved = true;
@@ -99,7 +99,7 @@ class WalkStage final : public Stage {
         blocked = true;
       }
     }
-    const int walking = std::min(walkers_, static_cast<int>(walking_.size()));
+    const auto walking = std::min<std::ptrdiff_t>(walkers_, std::ssize(walking_));
     for (int i = 0; i < walking; ++i) {
       const int ray = walking_.front();
       walking_.pop_front();
@@ -180,8 +180,7 @@ class WalkStage final : public Stage {
   void ask(int i) {
     Context& context = at(i);
     LevelRequest& request = *ask_->put();
-    request = {Asker::walk, static_cast<std::int16_t>(i), context.ray.id, UInt<27>(context.k),
-               on_wires<32>(context.walker.at)};
+    request = {Asker::walk, i, context.ray.id, UInt<27>(context.k), on_wires<32>(context.walker.at)};
     faults_.asked(context, request);
     ++counts_.samples;
     ++asked_;

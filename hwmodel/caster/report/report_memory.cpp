@@ -1,4 +1,5 @@
 #include "hwmodel/caster/report/report_memory.h"
+#include "hwmodel/memory/ratio.h"
 
 #include <fmt/format.h>
 
@@ -6,14 +7,6 @@
 #include <nlohmann/json.hpp>
 
 namespace voxmelt::hwmodel {
-namespace {
-
-double ratio(std::int64_t a, std::int64_t b) {
-  return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b);
-}
-
-}  // namespace
-
 std::string memory_text(const memory::Counts& c, const memory::Parameters& p) {
   const std::int64_t requests = c.reads + c.writes;
   const auto part = [&](std::int64_t cycles) { return 100 * ratio(cycles, c.cycles()); };

@@ -9,13 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "hwmodel/caster/report/report_memory.h"
+#include "hwmodel/memory/ratio.h"
 
 namespace voxmelt::hwmodel::raycast {
 namespace {
-
-double ratio(std::int64_t a, std::int64_t b) {
-  return b == 0 ? 0 : static_cast<double>(a) / static_cast<double>(b);
-}
 
 constexpr std::array kVolumeNames{"levels", "matter", "light", "heights", "texels"};
 static_assert(kVolumeNames.size() == kSentVolumes);
@@ -122,8 +119,7 @@ std::string table_of(const PictureReport& report, const Configuration& c) {
   for (const PassCycles& pass : report.passes)
     text += fmt::format("{} pass: {} cycles\n", pass.second ? "second" : "first", pass.cycles);
   text += fmt::format("the last frame: {} cycles, {:.1f} frames a second at {} MHz\n", report.end.cycles,
-                      1e6 * c.clock_mhz / static_cast<double>(std::max<std::int64_t>(report.end.cycles, 1)),
-                      c.clock_mhz);
+                      ratio(1e6 * c.clock_mhz, std::max<std::int64_t>(report.end.cycles, 1)), c.clock_mhz);
   text +=
       fmt::format("simulated in {:.2f} s: {:.2f} million cycles a second, {:.2f} million samples a second\n",
                   report.seconds, static_cast<double>(report.all_cycles) / report.seconds / 1e6,

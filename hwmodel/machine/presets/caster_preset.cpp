@@ -8,7 +8,7 @@
 
 namespace voxmelt::hwmodel {
 void read_clock_and_memory(scene::Reader& hw, raycast::Configuration& c) {
-  c.clock_mhz = static_cast<int>(hw.integer("clock_mhz", 1, 10000, c.clock_mhz));
+  c.clock_mhz = hw.integer("clock_mhz", 1, 10000, c.clock_mhz);
   const std::string memory = hw.text("memory", "fixed");
   if (memory != "fixed") c.dram = load_memory(memory, hw.place("memory").text());
 }

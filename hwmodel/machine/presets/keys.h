@@ -16,7 +16,7 @@ void read_keys(scene::Reader& hw, const Keys& keys, Configuration& configuration
   for (const Key<Configuration>& key : keys) {
     const std::string name(key.name);
     const std::int64_t value = hw.integer(name, key.low, key.high, key.get(configuration));
-    if (key.power_of_two && !std::has_single_bit(static_cast<std::uint64_t>(value)))
+    if (key.power_of_two && !std::has_single_bit<std::uint64_t>(value))
       hw.fail(name, " = " + std::to_string(value) + " is not a power of 2: " + std::string(key.values));
     key.set(configuration, value);
   }

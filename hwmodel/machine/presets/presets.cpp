@@ -17,7 +17,7 @@ void read_pipeline(scene::Reader& hw, Configuration& c) {
     hw.fail("tile",
             " = " + std::to_string(c.tile) + " is not a multiple of lanes = " + std::to_string(c.lanes));
   for (scene::Reader& channel : hw.tables("channel")) {
-    c.depths.push_back({channel.text("name"), static_cast<int>(channel.integer("depth", 1, kMostDepth))});
+    c.depths.push_back({channel.text("name"), channel.integer("depth", 1, kMostDepth)});
     channel.finish();
   }
 }

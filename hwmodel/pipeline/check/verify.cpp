@@ -30,7 +30,7 @@ namespace {
 // changes.
 int steps_of_pass(const Design& design, const Configuration& configuration, std::uint32_t step,
                   std::uint32_t left) {
-  std::uint32_t steps = std::min(left, static_cast<std::uint32_t>(configuration.cascade));
+  std::uint32_t steps = std::min<std::uint32_t>(left, configuration.cascade);
   const rule::Heat& heat = design.parameters.heat;
   if (heat.radiates()) steps = std::min(steps, heat.visibility_every - heat.visibility_age(step));
   return steps;
@@ -232,8 +232,7 @@ class Lockstep::Run {
   std::vector<Expected> expected_of(const Pass& pass, const std::vector<Expected>& step) const {
     if (machine_.design().paper() || step.empty()) return step;
     const std::vector<StageKind> stages = stages_of_step(machine_.design());
-    const auto before =
-        static_cast<std::size_t>(std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin());
+    const std::size_t before = std::find(stages.begin(), stages.end(), StageKind::settle) - stages.begin();
     std::vector<Expected> expected;
     std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // index in `step`
     std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;

@@ -31,7 +31,7 @@ void ChannelFault::take_out() {
 FifoFault<Cell>::Effect ChannelFault::stores(std::int64_t ordinal, Cell* now, Cell* last, int waiting) {
   if (plan_.struck() || ordinal < armed_from_) return Effect::none;
   const Shape& shape = pipeline_.design().shape;
-  const int lanes = shape.lanes, tile = passes_[static_cast<std::size_t>(ordinal / shape.tokens())].tile;
+  const int lanes = shape.lanes, tile = passes_[ordinal / shape.tokens()].tile;
   // A tile spoils cells beside a cut in any case. They are not compared.
   if (!shape.owns(tile, place_of_token(ordinal).x)) return Effect::none;
   const int lane = first_difference(now, last);

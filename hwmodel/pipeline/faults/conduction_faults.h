@@ -32,7 +32,7 @@ class ConductionFaults : public Planted {
             Cell& cell) {
     if (pass.kind() != StageKind::conduction) return;
     miss_side(pass, Fault::side_missed, lane, cell);
-    const std::int64_t axes = std::popcount(static_cast<unsigned>(word.exposed & 3));  // axes x and y
+    const std::int64_t axes = std::popcount<unsigned>(word.exposed & 3);  // axes x and y
     if (axes == cell.exposed_axes || !pass.design().parameters.heat.air ||
         !armed(pass, Fault::axis_uncounted))
       return;

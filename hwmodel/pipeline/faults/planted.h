@@ -72,7 +72,7 @@ class Planted : public check::Planted<FaultPlan> {
   static std::pair<std::int64_t, int> position_of(const Stage& stage, TapLine<Word>& line, const Word& word) {
     std::size_t delay = 0;
     while (&word < line.tap(delay) || &word >= line.tap(delay) + stage.lanes()) ++delay;
-    return {-static_cast<std::int64_t>(delay), static_cast<int>(&word - line.tap(delay))};
+    return {-static_cast<std::int64_t>(delay), &word - line.tap(delay)};
   }
 };
 

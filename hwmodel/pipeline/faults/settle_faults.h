@@ -28,12 +28,11 @@ class SettleFaults : public Planted {
     column_.shift();
     if (in != nullptr) std::copy_n(in, stage.lanes(), column_.tap(0));
     if (stage.filled() == 0) return;
-    for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+    for (int lane = 0; lane < stage.lanes(); ++lane) {
       const SettleWord& word = stage.words_[lane];
       if (word.kind != SettleKind::top) continue;
       std::vector<Cell> cells;  // cells of the run, from its bottom
-      for (auto below = static_cast<std::size_t>(word.last) + 1; below > 0; --below)
-        cells.push_back(column_.tap(below)[lane]);
+      for (std::int64_t below = word.last + 1; below > 0; --below) cells.push_back(column_.tap(below)[lane]);
       const Cell top = cells.back();
       const std::vector<Held> right = settled(stage, cells).cells;
       cells.pop_back();
@@ -51,7 +50,7 @@ class SettleFaults : public Planted {
   void lowered(Faulty& stage) {
     const bool carry = armed(stage, Fault::settle_sum_carry);
     if (!carry && !armed(stage, Fault::settle_mix)) return;
-    for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+    for (int lane = 0; lane < stage.lanes(); ++lane) {
       SettleWord& word = stage.words_[lane];
       if (word.kind != SettleKind::first) continue;
       if (!carry) {
@@ -59,7 +58,7 @@ class SettleFaults : public Planted {
         word.heat = stage.turned_[lane].heat;
         return strike_turned(stage, lane, 0);
       }
-      const std::int64_t sum = std::int64_t{word.sum} - std::bit_floor(static_cast<std::uint64_t>(word.sum));
+      const std::int64_t sum = std::int64_t{word.sum} - std::bit_floor<std::uint64_t>(word.sum);
       const SettleWord right = word;
       word.sum = sum;
       int k = 0;
@@ -73,17 +72,16 @@ class SettleFaults : public Planted {
   void turned(Faulty& stage) {
     if (stage.leaving().y != 0 || !armed(stage, Fault::settle_reversal)) return;
     std::vector<ShowScan> right = stage.shows_, wrong = stage.shows_;
-    for (std::int64_t y = 0; y < stage.height_; ++y)
-      for (std::size_t lane = 0; lane < stage.size(); ++lane) {
+    for (int y = 0; y < stage.height_; ++y)
+      for (int lane = 0; lane < stage.lanes(); ++lane) {
         Cell expected, found;
         const auto show = [&](ShowScan& scan, std::int64_t from, Cell& cell) {
-          scan.next(stage.upwards_.will_give(from)[lane], static_cast<int>(y), stage.flow_, stage.pace_,
-                    stage.widths_, cell);
+          scan.next(stage.upwards_.will_give(from)[lane], y, stage.flow_, stage.pace_, stage.widths_, cell);
         };
         show(right[lane], y, expected);
         show(wrong[lane], stage.height_ - 1 - y, found);
         if (alike(expected, found)) continue;
-        strike(stage, stage.leaving().x + static_cast<int>(lane), static_cast<int>(y), stage.leaving().z);
+        strike(stage, stage.leaving().x + lane, y, stage.leaving().z);
         return stage.upwards_.miss_turn();
       }
   }
@@ -159,18 +157,18 @@ class SettleFaults : public Planted {
 
   // Gives the record to the cell below, and leaves this cell outside the run. `wrong` counts from the lowest
   // cell of the run to the first one that is wrong then.
-  void part(Faulty& stage, std::size_t lane, const Cell& top, const SettleWord& record, int wrong) {
+  void part(Faulty& stage, int lane, const Cell& top, const SettleWord& record, int wrong) {
     SettleWord& word = stage.words_[lane];
     const Place place = stage.place_at(1);
-    strike(stage, place.x + static_cast<int>(lane), place.y - static_cast<int>(word.last) + wrong, place.z);
+    strike(stage, place.x + lane, place.y - static_cast<int>(word.last) + wrong, place.z);
     stage.downwards_.newest()[lane] = record;
     word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
   }
 
   // Strikes `above` cells above the one that has come on its way down.
-  void strike_turned(const Faulty& stage, std::size_t lane, int above) {
+  void strike_turned(const Faulty& stage, int lane, int above) {
     const Place place = stage.place_at(stage.turned_delay());
-    strike(stage, place.x + static_cast<int>(lane), place.y + above, place.z);
+    strike(stage, place.x + lane, place.y + above, place.z);
   }
 
   TapLine<Cell> column_;  // the latest tokens

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "hwmodel/fabric/index_of.h"
 #include "hwmodel/pipeline/model/cell.h"
 
 namespace voxmelt::hwmodel {
@@ -78,11 +79,11 @@ inline constexpr std::array kCellWires{
     cell_wire<&Cell::limit>(Wire::limit, "limit", "limit", false),
     cell_wire<&Cell::dead>(Wire::dead, "dead", "dead zone", false),
 };
-inline constexpr const CellWire& row_of(Wire wire) { return kCellWires[static_cast<std::size_t>(wire)]; }
+inline constexpr const CellWire& row_of(Wire wire) { return kCellWires[index_of(wire)]; }
 
 constexpr bool wires_are_in_order() {
   for (std::size_t i = 0; i < kCellWires.size(); ++i)
-    if (static_cast<std::size_t>(kCellWires[i].wire) != i) return false;
+    if (index_of(kCellWires[i].wire) != i) return false;
   return true;
 }
 static_assert(wires_are_in_order());
@@ -94,10 +95,10 @@ class Wires {
     for (const Wire wire : wires) add(wire);
   }
   constexpr Wires& add(Wire wire, bool really = true) {
-    if (really) bits_ |= 1u << static_cast<unsigned>(wire);
+    if (really) bits_ |= 1u << index_of(wire);
     return *this;
   }
-  constexpr bool has(Wire wire) const { return (bits_ >> static_cast<unsigned>(wire) & 1u) != 0; }
+  constexpr bool has(Wire wire) const { return (bits_ >> index_of(wire) & 1u) != 0; }
 
  private:
   std::uint32_t bits_ = 0;

@@ -9,7 +9,7 @@ namespace {
 
 void put_bits(std::uint64_t* words, std::int64_t at, int bits, std::uint64_t value) {
   const std::uint64_t ones = (std::uint64_t{1} << bits) - 1;  // a cell has at most 50 bits
-  const auto shift = static_cast<int>(at % 64);
+  const std::int64_t shift = at % 64;
   std::uint64_t* word = words + at / 64;
   word[0] = (word[0] & ~(ones << shift)) | value << shift;
   if (shift + bits <= 64) return;
@@ -18,7 +18,7 @@ void put_bits(std::uint64_t* words, std::int64_t at, int bits, std::uint64_t val
 
 std::uint64_t get_bits(const std::uint64_t* words, std::int64_t at, int bits) {
   const std::uint64_t ones = (std::uint64_t{1} << bits) - 1;
-  const auto shift = static_cast<int>(at % 64);
+  const std::int64_t shift = at % 64;
   const std::uint64_t* word = words + at / 64;
   std::uint64_t value = word[0] >> shift;
   if (shift + bits > 64) value |= word[1] << (64 - shift);
@@ -54,7 +54,8 @@ void CodeLayout::put(const Cell& cell, std::uint64_t* slot, std::int64_t at) con
   int bits = 0;
   for (const CellWire& row : kCellWires) {
     if (!is_in_memory(row, paper_, hot_)) continue;
-    value |= static_cast<std::uint64_t>(row.get(cell)) << bits;
+    const std::uint64_t number = row.get(cell);
+    value |= number << bits;
     bits += row.bits;
   }
   put_bits(slot, at, bits, value);
@@ -65,7 +66,7 @@ Cell CodeLayout::get(const std::uint64_t* slot, std::int64_t at) const {
   Cell cell;
   for (const CellWire& row : kCellWires) {
     if (!is_in_memory(row, paper_, hot_)) continue;
-    row.set(cell, static_cast<std::int64_t>(value & ((std::uint64_t{1} << row.bits) - 1)));
+    row.set(cell, value & ((std::uint64_t{1} << row.bits) - 1));
     value >>= row.bits;
   }
   return cell;

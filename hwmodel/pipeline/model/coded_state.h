@@ -7,7 +7,6 @@
 // are stored with their token, and mean nothing.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -109,8 +108,7 @@ class CodeFault {
 // Puts the tokens of a column into its slot, one a cycle. Its bits are kept until the column is complete.
 class ColumnWriter {
  public:
-  explicit ColumnWriter(const CodeLayout& layout)
-      : layout_(layout), head_(static_cast<std::size_t>(layout.height()) / 64 + 1) {}
+  explicit ColumnWriter(const CodeLayout& layout) : layout_(layout), head_(layout.height() / 64 + 1) {}
 
   // Takes a token with `cells` lanes in the grid.
   void put(const Cell* lanes, int cells, const Place& place, std::uint64_t* slot, CodeFault* fault,

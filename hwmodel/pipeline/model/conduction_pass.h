@@ -54,7 +54,7 @@ inline constexpr std::integral_constant<std::size_t, kPart> part{};
 template <const auto& kPairs, class Faults>
 class ConductionPass : public Stage {
  public:
-  static constexpr std::size_t kParts = kPairs.size();
+  static constexpr int kParts = kPairs.size();
 
   // `weight` is the weight of this neighbour distance.
   ConductionPass(StageKind kind, const Design& design, std::uint16_t weight, Faults faults)
@@ -66,12 +66,11 @@ class ConductionPass : public Stage {
 
   Wires side_bands() const override { return heated_bands(design()); }
   std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kPairs, 2); }
-  Units units() const override { return {.multipliers = static_cast<int>(kParts)}; }
+  Units units() const override { return {.multipliers = kParts}; }
 
  protected:
   void begin_step() override {
-    for (std::size_t part = 0; part < kParts; ++part)
-      dither_[part] = dither_of(step(), static_cast<int>(part), static_cast<int>(kParts));
+    for (int part = 0; part < kParts; ++part) dither_[part] = dither_of(step(), part, kParts);
   }
 
   void advance(const Cell* in, Cell* out) override {

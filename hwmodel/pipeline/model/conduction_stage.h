@@ -35,7 +35,7 @@ class FaceConduction final : public ConductionPass<kFacePairs, Faults> {
   }
 
   std::int64_t exposed_axes(const HeatWord& heat) const override {
-    return std::popcount(static_cast<unsigned>(std::int64_t{heat.exposed}));
+    return std::popcount<std::uint64_t>(heat.exposed);
   }
 
   template <std::size_t kAxis>

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/fabric/wires.h"
@@ -29,8 +30,8 @@ class IrradianceStream {
   IrradianceStream() = default;
   IrradianceStream(const Irradiance& field, const Shape& shape);
 
-  const IrradianceWords& words(int tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
-  std::int64_t bits(int tile) const { return kWordBits * static_cast<std::int64_t>(words(tile).size()); }
+  const IrradianceWords& words(int tile) const { return tiles_[tile]; }
+  std::int64_t bits(int tile) const { return kWordBits * std::ssize(words(tile)); }
   // Counts over all tiles. Cells of a halo count more than once.
   struct Counts {
     std::int64_t bits = 0, lit_cells = 0, lit_tokens = 0;
@@ -79,7 +80,7 @@ class IrradianceReader {
     if (!open_) {
       dark = word(at_);
       mask = mask_at(at_ + 1);
-      end += 1 + static_cast<std::size_t>(head_words());
+      end += 1 + head_words();
     }
     if (dark == 0) end += std::popcount(mask);
     return end;
@@ -94,7 +95,7 @@ class IrradianceReader {
       dark_ = word(at_);
       mask_ = mask_at(at_ + 1);
       open_ = true;
-      at_ += 1 + static_cast<std::size_t>(head_words());
+      at_ += 1 + head_words();
       if (fault != nullptr) [[unlikely]]
         fault->counted(t, pass, place, mask_, dark_);
     }

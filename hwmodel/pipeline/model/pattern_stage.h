@@ -160,10 +160,9 @@ class Pattern final : public Stage {
   }
 
   // Returns the number of a block. Blocks are numbered along x, then y, then z, modulo 2^32.
-  std::uint32_t block_index(int x) const {
-    const auto row = static_cast<std::uint32_t>(leaving().z) * static_cast<std::uint32_t>(shape().grid.y) +
-                     static_cast<std::uint32_t>(leaving().y);
-    return row * ((static_cast<std::uint32_t>(shape().grid.x) + 7) / 8) + static_cast<std::uint32_t>(x) / 8;
+  std::uint32_t block_index(std::uint32_t x) const {
+    const std::uint32_t y = leaving().y, z = leaving().z, columns = shape().grid.x, rows = shape().grid.y;
+    return (z * rows + y) * ((columns + 7) / 8) + x / 8;
   }
 
   [[no_unique_address]] Faults faults_;

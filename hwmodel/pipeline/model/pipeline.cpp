@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -76,7 +77,7 @@ struct Pipeline::Machine {
       if (reader.cycle(part.cycle()) && next) follow(next());
       links.front()->tick();
     });
-    for (std::size_t t = 0; t < steps.size(); ++t)
+    for (int t = 0; t < std::ssize(steps); ++t)
       add("step_" + std::to_string(t), [this, t] {
         try {
           part.moves += steps[t]->cycle();
@@ -98,27 +99,25 @@ struct Pipeline::Machine {
     });
   }
 
-  [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, std::size_t t) const {
+  [[noreturn]] void fail(const ModelError& error, StageError::Kind kind, int t) const {
     const Stage& failed = steps[t]->running();
     StageError wrong(error.what(), kind);
     wrong.stage = failed.kind();
     wrong.step = failed.working_step();
     wrong.spot = failed.spot();
-    wrong.cascade = static_cast<int>(t);
+    wrong.cascade = t;
     wrong.cycle = part.cycle();
     throw wrong;
   }
 
   void begin(const Pass& pass, bool first) {
-    for (std::size_t t = 0; t < steps.size(); ++t) steps[t]->begin_pass(pass, static_cast<int>(t), first);
+    for (int t = 0; t < std::ssize(steps); ++t) steps[t]->begin_pass(pass, t, first);
     ++passes;
   }
-  bool fed(const Pass& pass, std::size_t t) const {
-    return static_cast<int>(t) < pass.steps && pass.uses(StageKind::exchange, 0);
-  }
+  bool fed(const Pass& pass, int t) const { return t < pass.steps && pass.uses(StageKind::exchange, 0); }
   int fed_steps(const Pass& pass) const {
     int n = 0;
-    for (std::size_t t = 0; t < feeds.size(); ++t) n += fed(pass, t) ? 1 : 0;
+    for (int t = 0; t < std::ssize(feeds); ++t) n += fed(pass, t) ? 1 : 0;
     return n;
   }
   // Lets another pass follow without a gap. Its first token may be read in the next cycle.
@@ -128,7 +127,7 @@ struct Pipeline::Machine {
     if (dram != nullptr) dram->add_pass(pass->tile, fed_steps(*pass));
     reader.add_pass(pass->tile);
     writer.add_pass(pass->tile);
-    for (std::size_t t = 0; t < feeds.size(); ++t)
+    for (int t = 0; t < std::ssize(feeds); ++t)
       if (fed(*pass, t)) feeds[t]->add_pass(pass->tile);
   }
 
@@ -150,9 +149,8 @@ struct Pipeline::Machine {
   template <class Visit>  // visit(fifo, producer stage or null: the reader, cascade position)
   void for_each_channel(Visit&& visit) const {
     visit(links.front()->fifo(), static_cast<const Stage*>(nullptr), 0);
-    for (std::size_t t = 0; t < steps.size(); ++t)
-      steps[t]->for_each_output(
-          [&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, static_cast<int>(t)); });
+    for (int t = 0; t < std::ssize(steps); ++t)
+      steps[t]->for_each_output([&](CellFifo& fifo, const Stage& producer) { visit(fifo, &producer, t); });
   }
 
   int passes = 0;  // passes of the present train
@@ -256,7 +254,7 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Irradiance
   m.begin(pass, true);
   if (m.dram != nullptr)
     m.dram->begin_train({pass.tile, m.fed_steps(pass), irradiance, {m.memory.code(0), m.memory.code(1)}});
-  for (std::size_t t = 0; t < m.feeds.size(); ++t)
+  for (int t = 0; t < std::ssize(m.feeds); ++t)
     m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
 
   simulation_.begin(m.part);
@@ -280,10 +278,10 @@ std::vector<ChannelReport> Pipeline::channels() const {
                        fifo.depth(), behind_stage ? producer->output_bits() : m.design.cell_bits(),
                        fifo.highest(), fifo.count(), fifo.entered(), fifo.occupancy()});
   });
-  for (std::size_t t = 0; t < m.feed_links.size(); ++t) {
+  for (int t = 0; t < std::ssize(m.feed_links); ++t) {
     const HeatFifo& fifo = m.feed_links[t]->fifo();
-    reports.push_back({fifo.name(), StageKind::feed, static_cast<int>(t), fifo.depth(), 16, fifo.highest(),
-                       fifo.count(), fifo.entered(), fifo.occupancy()});
+    reports.push_back({fifo.name(), StageKind::feed, t, fifo.depth(), 16, fifo.highest(), fifo.count(),
+                       fifo.entered(), fifo.occupancy()});
   }
   return reports;
 }
@@ -309,13 +307,11 @@ std::vector<StageReport> Pipeline::stages() const {
   const Machine& m = *machine_;
   std::vector<StageReport> reports{
       {StageKind::reader, 0, 0, m.reader.cycles(), m.buffers(reader_buffers), {}, m.bits_read()}};
-  for (std::size_t t = 0; t < m.steps.size(); ++t)
+  for (int t = 0; t < std::ssize(m.steps); ++t)
     for (const auto& stage : m.steps[t]->stages())
-      reports.push_back({stage->kind(), static_cast<int>(t), stage->lag(), stage->cycles(), stage->buffers(),
-                         stage->units()});
-  for (std::size_t t = 0; t < m.feeds.size(); ++t)
-    reports.push_back(
-        {StageKind::feed, static_cast<int>(t), 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
+      reports.push_back({stage->kind(), t, stage->lag(), stage->cycles(), stage->buffers(), stage->units()});
+  for (int t = 0; t < std::ssize(m.feeds); ++t)
+    reports.push_back({StageKind::feed, t, 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
   reports.push_back({StageKind::writer,
                      m.configuration.cascade - 1,
                      0,

@@ -53,8 +53,7 @@ class Settle final : public Stage {
  protected:
   void begin_step() override {
     // No two sub-steps round their mixtures alike.
-    dithers_.next(UInt<16>::truncated(dither_of(moment().step) +
-                                      dither_of(static_cast<std::uint32_t>(moment().substep))));
+    dithers_.next(UInt<16>::truncated(dither_of(moment().step) + dither_of(moment().substep)));
     paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /
                 moment().substeps);
     if (overlaps()) return;  // columns are whole
@@ -105,7 +104,7 @@ class Settle final : public Stage {
     return 2 * (above + 1);
   }
 
-  std::size_t size() const { return static_cast<std::size_t>(lanes()); }
+  std::size_t size() const { return lanes(); }
 
   [[no_unique_address]] Faults faults_;
   bool hot_;

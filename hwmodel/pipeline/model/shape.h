@@ -84,10 +84,8 @@ inline std::int64_t owned_ordinal(const Shape& shape, int x, int y, int z) {
 
 // Returns the position of a cell in the stream of a grid that is one tile. The cell with the smaller position
 // leaves a stage first.
-inline std::int64_t stream_order(const Shape& shape, int x, int y, int z) {
-  return ((static_cast<std::int64_t>(z) * shape.blocks() + x / shape.lanes) * shape.grid.y + y) *
-             shape.lanes +
-         x % shape.lanes;
+inline std::int64_t stream_order(const Shape& shape, int x, int y, std::int64_t z) {
+  return ((z * shape.blocks() + x / shape.lanes) * shape.grid.y + y) * shape.lanes + x % shape.lanes;
 }
 
 }  // namespace voxmelt::hwmodel

@@ -2,7 +2,6 @@
 // people.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -81,9 +80,7 @@ constexpr StageKindInfo info_of(StageKind kind) {
 constexpr std::string_view name_of(StageKind kind) { return info_of(kind).name; }
 constexpr std::optional<step::Phase> phase_of(StageKind kind) { return info_of(kind).phase; }
 
-constexpr std::string_view name_of(step::Phase phase) {
-  return step::kPhaseNames[static_cast<std::size_t>(phase)];
-}
+constexpr std::string_view name_of(step::Phase phase) { return step::kPhaseNames[step::index_of(phase)]; }
 constexpr std::string_view name_of(std::optional<step::Phase> phase) {
   return phase ? name_of(*phase) : std::string_view{};
 }

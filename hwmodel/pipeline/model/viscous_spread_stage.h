@@ -26,7 +26,7 @@ class ViscousSpread final : public Stage {
         walls_(design.needs_walls()),
         head_bits_(RunWidths(design).head),
         line_(lanes(), lag()),
-        floor_(lanes(), static_cast<std::size_t>(design.shape.blocks()) + 1),
+        floor_(lanes(), design.shape.blocks() + 1),
         now_(lanes()),
         south_(now_) {}
 
@@ -60,11 +60,11 @@ class ViscousSpread final : public Stage {
   void advance(const Cell* in, Cell* out) override {
     line_.shift();
     if (came().y == 0) floor_.shift();
-    const UInt<16> layer = dither_of(static_cast<std::uint32_t>(came().y));
+    const UInt<16> layer = dither_of(came().y);
     for (int axis = 0; axis < 4; ++axis) axis_dither_[axis] = pair_dither(axis, layer, moment().substep);
-    const auto column = static_cast<std::size_t>(shape().column());
-    const auto plane = static_cast<std::size_t>(shape().plane());
-    const auto blocks = static_cast<std::size_t>(shape().blocks());
+    const std::size_t column = shape().column();
+    const std::size_t plane = shape().plane();
+    const std::size_t blocks = shape().blocks();
     const int end = lanes() - 1, x = came().x, z = came().z;
     SpreadWord* now = line_.tap(0);
     SpreadWord* south = line_.tap(plane);

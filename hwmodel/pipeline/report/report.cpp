@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/report/report_details.h"
 
@@ -123,9 +124,7 @@ Traffic traffic_of(const VerifyReport& report) {
   Traffic bits;
   for (const StageReport& stage : report.stages) {
     if (stage.cycles.busy == 0) continue;
-    const double mean =
-        std::round(100 * static_cast<double>(stage.moved_bits) / static_cast<double>(stage.cycles.busy)) /
-        100;
+    const double mean = std::round(ratio(100 * stage.moved_bits, stage.cycles.busy)) / 100;
     if (stage.kind == StageKind::reader) bits.read = mean;
     if (stage.kind == StageKind::writer) bits.written = mean;
     if (stage.kind == StageKind::feed) bits.irradiance += mean;
@@ -136,8 +135,7 @@ Traffic traffic_of(const VerifyReport& report) {
 // Returns the prediction, and by how many percent the cycles exceed it.
 std::string beside_prediction(std::int64_t cycles, std::int64_t predicted) {
   return fmt::format("{} ({:+.2f} %)", predicted,
-                     100.0 * static_cast<double>(cycles - predicted) /
-                         static_cast<double>(std::max<std::int64_t>(1, predicted)));
+                     ratio(100 * (cycles - predicted), std::max<std::int64_t>(1, predicted)));
 }
 
 // Returns the text below the table: the whole machine, its bounds, and what it reached.
@@ -146,13 +144,13 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   const Units units = units_of(report, configuration.lanes);
   const Traffic traffic = traffic_of(report);
   const int width = shape.tiled() ? shape.blocks() * shape.lanes : shape.grid.x;
-  const auto plane = static_cast<double>(width) * shape.grid.y * configuration.cascade;
+  const std::int64_t plane = std::int64_t{width} * shape.grid.y * configuration.cascade;
   std::string text = fmt::format(
       "all lanes and time steps: {} bits of buffers ({:.1f} per cell of a plane and time step), {} "
       "multipliers, {} "
       "dividers, {} random blocks\n",
-      buffer_bits(report), static_cast<double>(buffer_bits(report)) / plane, units.multipliers,
-      units.dividers, units.random_blocks);
+      buffer_bits(report), ratio(buffer_bits(report), plane), units.multipliers, units.dividers,
+      units.random_blocks);
 
   int highest = 0;
   std::string fullest;
@@ -170,25 +168,22 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
 
   const std::optional<std::int64_t> on_memory = report.predicted_on_memory();
   const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
-  const double per_cycle = cells / static_cast<double>(report.cycles);
+  const double per_cycle = ratio(cells, report.cycles);
   const int bound = configuration.lanes * configuration.cascade;
-  const auto offered = static_cast<double>(shape.tiles() * shape.tokens() * shape.lanes);
-  const auto twice = static_cast<double>(recomputed_cells(shape));
+  const std::int64_t offered = shape.tiles() * shape.tokens() * shape.lanes;
+  const std::int64_t twice = recomputed_cells(shape);
   if (shape.tiled())
     text += fmt::format(
         "tiles: {} of {} columns, {} of them halo beside each cut; {:.1f} % of the cells are computed "
         "again\n",
-        shape.tiles(), width, shape.halo * shape.lanes,
-        100.0 * twice / static_cast<double>(shape.grid.cells()));
+        shape.tiles(), width, shape.halo * shape.lanes, ratio(100 * twice, shape.grid.cells()));
   text += fmt::format(
       "cycles: {} in {} passes; predicted without stalls {}{}\n{:.3f} cell-steps per cycle, {:.1f} % of the "
       "bound {} (lanes x cascade); lanes beyond the grid {:.1f} %, time steps without work {:.1f} %\n",
       report.cycles, report.passes, beside_prediction(report.cycles, report.predicted_cycles),
       on_memory ? ", on this memory " + beside_prediction(report.cycles, *on_memory) : "", per_cycle,
-      100.0 * per_cycle / bound, bound,
-      100.0 * (1 - (static_cast<double>(shape.grid.cells()) + twice) / offered),
-      100.0 * (1 - static_cast<double>(report.steps) /
-                       static_cast<double>(report.passes * configuration.cascade)));
+      100.0 * per_cycle / bound, bound, 100.0 * (1 - ratio(shape.grid.cells() + twice, offered)),
+      100.0 * (1 - ratio(report.steps, report.passes * configuration.cascade)));
   return text +
          fmt::format("simulated, comparing included: {:.2f} million cell-steps a second\n",
                      1e-6 * static_cast<double>(report.cell_steps) / std::max(1e-9, report.model_seconds));
@@ -267,13 +262,12 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
 std::string table_of(const VerifyReport& report, const Design& design, const Configuration& configuration) {
   if (report.mismatch != nullptr || report.cycles == 0) return "";  // cycles of half a pass would mislead
   constexpr const char* kLine = "{:<12} {:>5} {:>8} {:>10} {:>10} {:>9} {:>13} {:>11} {:>7} {:>12} {:>13}\n";
-  const auto total = static_cast<double>(report.cycles);
   std::string text = fmt::format(kLine, "stage", "times", "busy %", "starved %", "blocked %", "memory %",
                                  "fill/drain %", "bypassed %", "lag", "buffer bits", "mult + div");
   for (const Row& row : rows_of(report.stages)) {
     const StageCycles& c = row.stage.cycles;
     const auto share = [&](std::int64_t cycles) {
-      return fmt::format("{:.1f}", 100.0 * static_cast<double>(cycles) / (total * row.times));
+      return fmt::format("{:.1f}", ratio(100 * cycles, report.cycles * row.times));
     };
     text += fmt::format(kLine, name_of(row.stage.kind), row.times, share(c.busy), share(c.starved),
                         share(c.blocked), share(c.memory), share(c.fill_drain), share(c.bypassed),

@@ -1,4 +1,5 @@
 #include "hwmodel/pipeline/report/report_details.h"
+#include "hwmodel/memory/ratio.h"
 
 #include <cmath>
 #include <cstddef>
@@ -10,11 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double ratio(double a, double b) { return b == 0 ? 0 : a / b; }
-
 // Rounds to one digit behind the point, as the table shows it.
 double percent(const Json& part, std::int64_t value) {
-  return std::round(1000 * ratio(part.get<double>(), static_cast<double>(value))) / 10;
+  return std::round(1000 * ratio(part.get<double>(), value)) / 10;
 }
 
 Json json_of(const Timeline& timeline, const Json& stages) {
@@ -40,9 +39,8 @@ Json bounds(const Json& json, const VerifyReport& report, const Design& design,
   const Shape& shape = design.shape;
   const double lanes_and_steps = configuration.lanes * configuration.cascade;
   const auto cells = static_cast<double>(shape.grid.cells());
-  const double in_grid = lanes_and_steps * ratio(cells, static_cast<double>(shape.tokens() * shape.lanes));
-  const double with_work =
-      in_grid * ratio(report.steps, static_cast<double>(report.passes * configuration.cascade));
+  const double in_grid = lanes_and_steps * ratio(cells, shape.tokens() * shape.lanes);
+  const double with_work = in_grid * ratio(report.steps, report.passes * configuration.cascade);
   const double done = cells * report.steps;
   const Json& traffic = json["traffic_bits_per_cycle"];
   const double bytes = (traffic["read"].get<double>() + traffic["written"].get<double>() +
@@ -51,14 +49,14 @@ Json bounds(const Json& json, const VerifyReport& report, const Design& design,
   Json all{{"lanes_and_steps", lanes_and_steps},
            {"lanes_in_the_grid", in_grid},
            {"steps_with_work", with_work},
-           {"fill_and_drain", ratio(done, static_cast<double>(report.predicted_cycles))},
-           {"reached", ratio(done, static_cast<double>(report.cycles))},
+           {"fill_and_drain", ratio(done, report.predicted_cycles)},
+           {"reached", ratio(done, report.cycles)},
            {"bytes_per_cycle", bytes},
            {"cell_steps_per_byte", ratio(lanes_and_steps, bytes)}};
   if (!report.most_bytes_per_cycle) return all;
   std::int64_t bits = 0;
   for (const StageReport& stage : report.stages) bits += stage.moved_bits;
-  const double moved = ratio(static_cast<double>(bits), 8 * static_cast<double>(report.cycles));
+  const double moved = ratio(bits, 8 * report.cycles);
   all["most_bytes_per_cycle"] = *report.most_bytes_per_cycle;
   all["moved_bytes_per_cycle"] = moved;
   all["cell_steps_per_moved_byte"] = ratio(all["reached"].get<double>(), moved);

@@ -1,6 +1,8 @@
 #include "hwmodel/pipeline/streams/column_port.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -89,7 +91,7 @@ void ColumnInput::take(std::int64_t now) {
     Column& column = ahead_[under_way_.front() - first_];
     under_way_.pop_front();
     column.come.push_back(now);
-    if (slots_->coded && static_cast<std::int64_t>(column.come.size()) == slots_->head_bursts)
+    if (slots_->coded && std::ssize(column.come) == slots_->head_bursts)
       column.bursts = bursts_of(stored_[column.at.pass % slots_->copies]->bits_of(column.at.number));
   }
 }

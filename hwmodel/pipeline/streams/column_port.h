@@ -7,7 +7,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -122,7 +121,7 @@ class ColumnOutput {
   void cycle(std::int64_t now);
   bool settled() const { return events_.empty() && bursts_.empty(); }  // all was handed to the memory
   // Returns the number of passes of the train in which all of this column has been handed to the memory.
-  std::int64_t passes(std::int64_t column) const { return passes_[static_cast<std::size_t>(column)]; }
+  std::int64_t passes(std::int64_t column) const { return passes_[column]; }
 
  private:
   struct Event {

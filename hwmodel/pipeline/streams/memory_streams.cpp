@@ -88,7 +88,7 @@ void MemoryStreams::add_pass(int tile, int fed) {
     written_columns_.add(tile);
   } else
     wanted_ += burst_bits(state_.pass);
-  for (std::size_t t = 0; t < static_cast<std::size_t>(fed); ++t) feeds_[t].add(tile);
+  for (int t = 0; t < fed; ++t) feeds_[t].add(tile);
 }
 
 void MemoryStreams::Feed::add(int tile) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "hwmodel/pipeline/model/lag.h"
@@ -25,7 +26,7 @@ Flow flow_of(const Design& design, const Configuration& configuration, const Pas
     flow.longest = std::max(flow.longest, lag);
     flow.waits += pass.steps * (lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1);
   }
-  flow.channels = configuration.cascade * static_cast<std::int64_t>(stages.size()) + 1;
+  flow.channels = configuration.cascade * std::ssize(stages) + 1;
   return flow;
 }
 

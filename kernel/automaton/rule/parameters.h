@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "kernel/automaton/rule/fixed_point.h"
@@ -22,6 +23,11 @@ inline constexpr std::int64_t kPositionUnit = 16;
 struct Position {
   std::int64_t x = 0, y = 0, z = 0;
 };
+
+// Returns the place of an enumerator in a table that has a row for each, in their order.
+template <class Enum>
+requires std::is_enum_v<Enum>
+constexpr std::size_t index_of(Enum one) { return static_cast<std::size_t>(one); }
 
 enum class SourceKind : std::uint8_t { point, sphere, directional, sky };
 
@@ -39,9 +45,7 @@ inline constexpr std::array kSourceKinds{
     SourceKindRow{.kind = SourceKind::directional, .name = "directional", .direction = true},
     SourceKindRow{.kind = SourceKind::sky, .name = "sky"},
 };
-constexpr const SourceKindRow& row_of(SourceKind kind) {
-  return kSourceKinds[static_cast<std::size_t>(kind)];
-}
+constexpr const SourceKindRow& row_of(SourceKind kind) { return kSourceKinds[index_of(kind)]; }
 
 // Between two keys, all numbers of a source change linearly in the step. Numbers that its kind lacks are 0.
 struct SourceKey {

@@ -43,9 +43,10 @@ VOXMELT_RULE std::uint64_t random_block(const RoundKeys& key, std::uint32_t step
 }
 
 // Blocks are numbered along x, then y, then z. A row of nx cells has ceil(nx / 8) of them.
-VOXMELT_RULE std::uint32_t random_block_index(int x, int y, int z, int nx, int ny) {
-  const std::uint32_t row_blocks = (static_cast<std::uint32_t>(nx) + 7) / 8;
-  return (static_cast<std::uint32_t>(z) * ny + y) * row_blocks + static_cast<std::uint32_t>(x) / 8;
+VOXMELT_RULE std::uint32_t random_block_index(std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                                              std::uint32_t nx, std::uint32_t ny) {
+  const std::uint32_t row_blocks = (nx + 7) / 8;
+  return (z * ny + y) * row_blocks + x / 8;
 }
 
 VOXMELT_RULE std::uint8_t random_byte(std::uint64_t block, int x) {

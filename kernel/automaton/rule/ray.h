@@ -41,7 +41,7 @@ class CellRays {
     sight_.face = face_of(number);
     if (!with_kind(kind_, [](auto one) { return one.kTurns; })) return;
     const auto [nx, ny, nz] = sight_.setting.grid;
-    const auto index = (static_cast<std::uint64_t>(cell_[2]) * ny + cell_[1]) * nx + cell_[0];
+    const std::uint64_t z = cell_[2], index = (z * ny + cell_[1]) * nx + cell_[0];
     sight_.word = random_block(sight_.setting.keys, number, static_cast<std::uint32_t>(index));
   }
 

@@ -25,9 +25,7 @@ struct Face {
   std::size_t axis;
   std::int64_t side;  // 1 or -1
 };
-VOXMELT_RULE Face face_of(int number) {
-  return {static_cast<std::size_t>(number) / 2, number % 2 == 0 ? 1 : -1};
-}
+VOXMELT_RULE Face face_of(std::size_t number) { return {number / 2, number % 2 == 0 ? 1 : -1}; }
 
 // Holds floor(16384 cos((2c + 1) pi / 256)).
 inline constexpr std::array<std::int64_t, 64> kCosine{
@@ -48,7 +46,7 @@ VOXMELT_RULE DiscPlace disc_place(std::uint64_t word, int ray, int rays) {
   const std::uint64_t reversed = rays == 16  ? (n & 1) << 3 | (n & 2) << 1 | (n & 4) >> 1 | (n & 8) >> 3
                                  : rays == 4 ? (n & 1) << 1 | (n & 2) >> 1
                                              : n;
-  const std::uint64_t each = 65536u / static_cast<std::uint64_t>(rays);
+  const std::uint64_t count = rays, each = 65536 / count;
   const std::uint64_t u = (word + each * n) & 0xFFFF, v = ((word >> 16) + each * reversed) & 0xFFFF;
   const std::int64_t rho = square_root((2 * v + 1) << 11);
   const std::size_t c = u >> 8 & 63;

@@ -114,8 +114,7 @@ struct DirectionalSource {
   }
   VOXMELT_RULE static std::uint64_t receives(const Sight& sight, std::int64_t sum) {
     const std::uint64_t length = square_root(squared(triple(sight.source.direction)) << 12);
-    return quotient(sight.source.power, 64 * static_cast<std::uint64_t>(sum),
-                    kOneCell * sight.setting.rays() * length);
+    return quotient(sight.source.power, std::uint64_t{64} * sum, kOneCell * sight.setting.rays() * length);
   }
 };
 
@@ -146,7 +145,7 @@ static_assert(std::tuple_size_v<SourceKinds> == kSourceKinds.size(), "a kind wit
 static_assert(
     [] {
       for (std::size_t i = 0; i < kSourceKinds.size(); ++i)
-        if (kSourceKinds[i].kind != static_cast<SourceKind>(i)) return false;
+        if (index_of(kSourceKinds[i].kind) != i) return false;
       return true;
     }(),
     "the rows are in the order of SourceKind");
@@ -155,7 +154,7 @@ static_assert(
 template <std::size_t i = 0, class Visit>
 [[gnu::always_inline]] constexpr auto with_kind(SourceKind kind, const Visit& visit) {
   if constexpr (i + 1 < std::tuple_size_v<SourceKinds>) {
-    if (kind != static_cast<SourceKind>(i)) return with_kind<i + 1>(kind, visit);
+    if (index_of(kind) != i) return with_kind<i + 1>(kind, visit);
   }
   return visit(std::tuple_element_t<i, SourceKinds>{});
 }

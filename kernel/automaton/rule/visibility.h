@@ -40,7 +40,7 @@ VOXMELT_RULE std::uint64_t irradiance(std::uint64_t power, std::int64_t facing, 
   constexpr std::uint64_t one_cell = kPositionUnit * kPositionUnit;
   const std::uint64_t squared = std::max(distance_squared, one_cell);
   const std::uint64_t length = square_root(squared << 12);  // in 1/64 of a position's unit
-  return static_cast<std::uint64_t>(Wide{power} * static_cast<std::uint64_t>(64 * facing) /
+  return static_cast<std::uint64_t>(Wide{power} * (std::uint64_t{64} * facing) /
                                     (Wide{squared} * length * static_cast<unsigned>(rays)));
 }
 

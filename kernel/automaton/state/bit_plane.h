@@ -18,7 +18,7 @@ class BitPlane {
   BitPlane() = default;
   explicit BitPlane(Grid grid)
       : grid_(grid),
-        row_words_((static_cast<std::size_t>(grid.x) + 63) / 64),
+        row_words_(words_for(grid.x)),
         pages_(row_words_ * grid.y * grid.z * sizeof(std::uint64_t)) {}
 
   bool empty() const { return row_words_ == 0; }
@@ -53,8 +53,8 @@ class BitPlane {
   }
 
  private:
-  std::size_t word_index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * grid_.y + y) * row_words_ + static_cast<std::size_t>(x) / 64;
+  std::size_t word_index(std::size_t x, std::size_t y, std::size_t z) const {
+    return (z * grid_.y + y) * row_words_ + x / 64;
   }
 
   Grid grid_{};

@@ -57,7 +57,7 @@ std::uint64_t row_digest(const Volume& volume, int y, int z, std::index_sequence
   const std::tuple rows{row_of(volume.*std::get<i>(kFields).column, y, z)...};
   std::uint64_t sum = 0;
   for (int first = 0; first < g.x; first += 64) {
-    const std::size_t w = static_cast<std::size_t>(first) / 64;
+    const std::size_t w = first / 64;
     const int count = std::min(64, g.x - first);
     const auto any = [&]<std::size_t k>() {
       return (!kOptional<k> || std::get<k>(rows) != nullptr) && any_of(std::get<k>(rows), w, count);

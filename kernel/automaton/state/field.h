@@ -22,9 +22,7 @@ class Layout {
  public:
   Layout() = default;
   explicit Layout(Grid grid)
-      : row_((static_cast<std::size_t>(grid.x) + 63) / 64 * 64),
-        slice_(row_ * grid.y + 64),
-        cells_(slice_ * grid.z) {}
+      : row_(words_for(grid.x) * 64), slice_(row_ * grid.y + 64), cells_(slice_ * grid.z) {}
 
   Slot at(int x, int y, int z) const { return {z * slice_ + y * row_ + x}; }
   std::size_t row() const { return row_; }      // cells from (x, y, z) to (x, y + 1, z)

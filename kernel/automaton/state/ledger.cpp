@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 namespace voxmelt::state {
 
@@ -26,17 +26,16 @@ Holdings holdings(const Volume& volume) {
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y) {
       const auto solids = volume.solid.row(y, z), liquids = volume.liquid.row(y, z);
-      for (std::size_t w = 0; w < solids.size(); ++w)
+      for (int w = 0; w < std::ssize(solids); ++w)
         for (std::uint64_t matter = solids[w] | liquids[w]; matter != 0; matter &= matter - 1) {
           const int bit = std::countr_zero(matter);
-          const Slot i = volume.at(static_cast<int>(64 * w) + bit, y, z);
+          const Slot i = volume.at(64 * w + bit, y, z);
           (solids[w] >> bit & 1u ? solid : liquid) += volume.amount[i];
           energy += volume.energy[i];
           heat += std::uint64_t{volume.amount[i]} * volume.heat[i];
         }
     }
-  return {static_cast<Sum>(solid), static_cast<Sum>(liquid), static_cast<Sum>(energy),
-          static_cast<Sum>(heat)};
+  return {solid, liquid, energy, heat};
 }
 
 Ledger Ledger::open(const Volume& volume) {

@@ -12,6 +12,8 @@
 
 namespace voxmelt::step {
 
+using rule::index_of;
+
 enum class Phase { source, heat, melt, gravity, spread, excess };
 inline constexpr int kPhaseCount = 6;
 inline constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{"source",  "heat",   "melt",
@@ -19,7 +21,7 @@ inline constexpr std::array<std::string_view, kPhaseCount> kPhaseNames{"source",
 
 // Returns the member that has the time of a phase: `seconds.*time_of(phase)`.
 constexpr double state::Seconds::*time_of(Phase phase) {
-  return state::Seconds::table()[static_cast<std::size_t>(phase)].value;
+  return state::Seconds::table()[index_of(phase)].value;
 }
 static_assert(
     [] {

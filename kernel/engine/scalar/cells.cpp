@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <iterator>
 
 namespace voxmelt::scalar {
 
@@ -16,10 +17,10 @@ ActiveRows::ActiveRows(const state::Volume& volume) : rows_(volume.grid.y), slic
     for (int y = 0; y < rows_; ++y) {
       const auto solid = volume.solid.row(y, z), liquid = volume.liquid.row(y, z);
       Interval& interval = own[index(y, z)];
-      for (std::size_t w = 0; w < solid.size(); ++w) {
+      for (int w = 0; w < std::ssize(solid); ++w) {
         const std::uint64_t word = solid[w] | liquid[w];
         if (word == 0) continue;
-        const int base = static_cast<int>(64 * w);
+        const int base = 64 * w;
         interval.begin = std::min(interval.begin, base + std::countr_zero(word));
         interval.end = base + 64 - std::countl_zero(word);
       }

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/neighbourhood.h"
+#include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::scalar {
@@ -74,6 +76,22 @@ class ActiveRows {
 // Restores the invariants of state::Volume after amounts changed: the liquid mask, and no energy or heat in
 // an empty cell.
 void settle_masks(const ActiveRows& rows, state::Volume& volume);
+
+// Adds to the number of a cell, where the rules keep the sum within its 16 bits.
+inline void add(std::uint16_t& number, std::int32_t change) {
+  number = static_cast<std::uint16_t>(number + change);
+}
+
+// Returns amount x heat of a part of a cell.
+inline std::uint64_t content_of(std::uint64_t amount, std::uint16_t heat) { return amount * heat; }
+
+// Sets the heat of a cell whose contents were mixed (rule::mixed), and books what the rounding changes.
+inline void mix(std::uint16_t& heat, std::uint64_t content, std::uint64_t amount, std::int32_t offset,
+                state::Ledger& ledger) {
+  heat = static_cast<std::uint16_t>(rule::mixed(content, amount, offset));
+  const state::Sum before = content, after = content_of(amount, heat);
+  ledger.heat.rounded += after - before;
+}
 
 // A neighbour is open unless it is blocked, or a diagonal between two blocked cells.
 inline bool is_open(const Cells& cells, int x, int y, int z, rule::Direction d) {

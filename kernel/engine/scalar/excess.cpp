@@ -30,7 +30,7 @@ Run gathered(const Cells& cells, state::Volume& volume, int x, int bottom, int z
   while (next_amount > 0 || run.mass > std::int64_t{run.n} * rule::kOne) {
     const std::int32_t top = next_amount;
     run.mass += top;
-    run.content += static_cast<std::uint64_t>(top) * volume.heat[run.at(run.n)];
+    run.content += content_of(top, volume.heat[run.at(run.n)]);
     ++run.n;
     if (cells.blocked(x, bottom + run.n, z)) break;
     next_amount = cells.amount(x, bottom + run.n, z);
@@ -56,12 +56,12 @@ bool keeps_order(const Run& run) {
 
 void move_part(const Run& run, std::int32_t from, std::int32_t to, std::int32_t flow, std::int32_t offset) {
   if (flow == 0) return;
-  const auto held = static_cast<std::uint64_t>(run.amount(to)), part = static_cast<std::uint64_t>(flow);
+  const std::int32_t held = run.amount(to);
   std::uint16_t& h = run.volume.heat[run.at(to)];
-  h = static_cast<std::uint16_t>(
-      rule::mixed(held * h + part * run.volume.heat[run.at(from)], held + part, offset));
-  run.volume.amount[run.at(to)] += static_cast<std::uint16_t>(flow);
-  run.volume.amount[run.at(from)] -= static_cast<std::uint16_t>(flow);
+  h = static_cast<std::uint16_t>(rule::mixed(
+      content_of(held, h) + content_of(flow, run.volume.heat[run.at(from)]), held + flow, offset));
+  add(run.volume.amount[run.at(to)], flow);
+  add(run.volume.amount[run.at(from)], -flow);
 }
 
 // Moves the parts through the faces of the run, upwards and then downwards.
@@ -100,7 +100,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
     const Run run = gathered(cells, volume, x, bottom, z);
     if (run.n == 0) return bottom;
     if (hot) settle_heat(run, offset);
-    ledger.heat.rounded -= static_cast<state::Sum>(run.content);
+    ledger.heat.rounded -= run.content;
     const auto mean = static_cast<std::int32_t>(run.content / run.mass);
     const rule::Column column =
         rule::run_column(run.mass, run.n, bed_under(run), mean, parameters_.flow, moment.substeps);
@@ -109,7 +109,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
       const state::Slot i = run.at(k);
       const std::int32_t amount = rule::settled(run.mass, run.n, k);
       volume.amount[i] = static_cast<std::uint16_t>(amount);
-      ledger.heat.rounded += static_cast<state::Sum>(amount) * volume.heat[i];
+      ledger.heat.rounded += content_of(amount, volume.heat[i]);
       if (amount == 0) volume.heat[i] = 0;
       if (amount == 0) continue;  // emptied: above the surface, no part of the run any more
       in_run_[i] = 1;

@@ -38,8 +38,8 @@ class PairMoves {
     if (flow_.law == rule::Law::paper) {
       const std::int32_t room = lower + flow - volume_.energy[low];
       const rule::EnergyMove move = rule::energy_fallen(volume_.energy[high], flow, room, flow_.paper);
-      volume_.energy[high] = static_cast<std::uint16_t>(volume_.energy[high] - move.lost);
-      volume_.energy[low] = static_cast<std::uint16_t>(volume_.energy[low] + move.gained);
+      add(volume_.energy[high], -move.lost);
+      add(volume_.energy[low], move.gained);
       ledger_.energy.accelerated += move.gained - move.lost;
     }
     transfer(high, low, flow);
@@ -51,23 +51,20 @@ class PairMoves {
     const std::int32_t flow = rule::pushed_up(volume_.amount[low], volume_.amount[high]);
     if (flow == 0) return;
     const std::int32_t energy = std::min<std::int32_t>(volume_.energy[low], flow);
-    volume_.energy[low] = static_cast<std::uint16_t>(volume_.energy[low] - energy);
-    volume_.energy[high] = static_cast<std::uint16_t>(volume_.energy[high] + energy);
+    add(volume_.energy[low], -energy);
+    add(volume_.energy[high], energy);
     transfer(low, high, flow);
   }
 
  private:
   void transfer(state::Slot from, state::Slot to, std::int32_t flow) {
     if (hot_) {
-      const std::uint64_t content = std::uint64_t{volume_.amount[to]} * volume_.heat[to] +
-                                    static_cast<std::uint64_t>(flow) * volume_.heat[from];
-      const std::uint64_t after = std::uint64_t{volume_.amount[to]} + flow;
-      const std::int32_t h = rule::mixed(content, after, offset_);
-      ledger_.heat.rounded += static_cast<state::Sum>(after * h) - static_cast<state::Sum>(content);
-      volume_.heat[to] = static_cast<std::uint16_t>(h);
+      const std::uint64_t content =
+          content_of(volume_.amount[to], volume_.heat[to]) + content_of(flow, volume_.heat[from]);
+      mix(volume_.heat[to], content, volume_.amount[to] + flow, offset_, ledger_);
     }
-    volume_.amount[from] = static_cast<std::uint16_t>(volume_.amount[from] - flow);
-    volume_.amount[to] = static_cast<std::uint16_t>(volume_.amount[to] + flow);
+    add(volume_.amount[from], -flow);
+    add(volume_.amount[to], flow);
   }
   void cap_energy(state::Slot i) {
     if (volume_.energy[i] <= volume_.amount[i]) return;

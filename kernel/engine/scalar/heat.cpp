@@ -39,7 +39,7 @@ void conduct(std::span<const rule::Offset> axes, std::int32_t weight, std::uint3
                 [&](std::int32_t there) { return -rule::conducted(there, own, weight, offset); });
     }
     const state::Slot i = cells.at(x, y, z);
-    next[i] = static_cast<std::uint16_t>(volume.heat[i] + from_matter + from_walls);
+    add(next[i], from_matter + from_walls);
     ledger.conducted += std::int64_t{from_matter} * volume.amount[i];
     ledger.walls += std::int64_t{from_walls} * volume.amount[i];
   });
@@ -62,7 +62,7 @@ std::int64_t convect(std::int32_t weight, std::uint32_t step, const rule::Materi
     if (!cells.liquid(x, y, z)) return;
     const std::int32_t gain = rising(x, y - 1, z) - rising(x, y, z);
     const state::Slot i = cells.at(x, y, z);
-    next[i] = static_cast<std::uint16_t>(volume.heat[i] + gain);
+    add(next[i], gain);
     change += std::int64_t{gain} * volume.amount[i];
   });
   std::swap(volume.heat, next);

@@ -24,7 +24,7 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
       ledger.energy.melted += volume.amount[i];
     } else if (paper && reheat > 0 && volume.liquid.test(x, y, z)) {
       const std::int32_t gained = rule::scaled(volume.amount[i] - volume.energy[i], reheat);
-      volume.energy[i] = static_cast<std::uint16_t>(volume.energy[i] + gained);
+      add(volume.energy[i], gained);
       ledger.energy.reheated += gained;
     }
   });

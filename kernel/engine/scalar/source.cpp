@@ -39,22 +39,20 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const std::int32_t before = volume.amount[i], added = rule::vented(before, vent.rate);
       if (added == 0) return;
       const std::int32_t after = before + added;
-      volume.amount[i] = static_cast<std::uint16_t>(after);
+      add(volume.amount[i], added);
       volume.liquid.set(x, y, z, true);
       ledger.mass.added += added;
 
       if (paper) {
         const std::int32_t energy = rule::vented_energy(added, vent.energy);
-        volume.energy[i] = static_cast<std::uint16_t>(volume.energy[i] + energy);
+        add(volume.energy[i], energy);
         ledger.energy.added += energy;
       }
       if (parameters_.heat.enabled) {
-        const std::uint64_t brought = static_cast<std::uint64_t>(added) * vent.temperature;
-        const std::uint64_t content = static_cast<std::uint64_t>(before) * volume.heat[i] + brought;
-        const std::int32_t h = rule::mixed(content, after, rule::dither(step));
-        volume.heat[i] = static_cast<std::uint16_t>(h);
-        ledger.heat.added += static_cast<state::Sum>(brought);
-        ledger.heat.rounded += static_cast<state::Sum>(after) * h - static_cast<state::Sum>(content);
+        const std::uint64_t brought = content_of(added, vent.temperature);
+        const std::uint64_t content = content_of(before, volume.heat[i]) + brought;
+        ledger.heat.added += brought;
+        mix(volume.heat[i], content, after, rule::dither(step), ledger);
       }
     });
   }
@@ -66,12 +64,12 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
       const std::int32_t taken = rule::drained(volume.amount[i], drain.rate);
       if (taken == 0) return;
       const std::int32_t left = volume.amount[i] - taken;
-      const std::int32_t energy = std::min<std::int32_t>(volume.energy[i], left);
+      const std::int32_t lost = std::max(0, volume.energy[i] - left);
       ledger.mass.removed += taken;
-      ledger.energy.removed += volume.energy[i] - energy;
-      ledger.heat.removed += static_cast<state::Sum>(taken) * volume.heat[i];
-      volume.amount[i] = static_cast<std::uint16_t>(left);
-      volume.energy[i] = static_cast<std::uint16_t>(energy);
+      ledger.energy.removed += lost;
+      ledger.heat.removed += content_of(taken, volume.heat[i]);
+      add(volume.amount[i], -taken);
+      add(volume.energy[i], -lost);
       if (left > 0) return;
       volume.liquid.set(x, y, z, false);
       volume.heat[i] = 0;

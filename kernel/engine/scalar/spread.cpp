@@ -3,7 +3,6 @@
 #include "kernel/automaton/rule/spread.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -14,7 +13,7 @@ namespace voxmelt::scalar {
 namespace {
 
 // Returns the share of its amount and energy that cell (x, y, z) gives to direction d of its pattern.
-std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pattern, std::size_t d) {
+std::int32_t share_of(const rule::Flow& flow, std::int32_t heat, std::uint8_t pattern, int d) {
   if (flow.paper.use_table) return flow.paper.table[pattern][d];
   return rule::thermal_share(flow.paper.share, heat, flow);
 }
@@ -33,12 +32,12 @@ class Gifts {
   std::int32_t alpha(int x, int y, int z) const {
     return rule::contact_alpha(cells_.blocked(x, y - 1, z), cells_.inert(x, y - 1, z), flow_.paper);
   }
-  Gift given(int x, int y, int z, std::size_t d) const {
+  Gift given(int x, int y, int z, int d) const {
     const state::Slot i = cells_.at(x, y, z);
     const std::uint8_t pattern = pattern_[i];
     if (!(pattern >> d & 1u)) return {};
     const std::int32_t cap = rule::flow_cap(flow_.paper.neighbours);
-    const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+    const bool diagonal = rule::is_diagonal(d);
     const std::int32_t share = share_of(flow_, volume_.heat[i], pattern, d);
     const std::int32_t f = rule::shared(volume_.amount[i], share, cap, diagonal);
     const std::int32_t e = std::min(f, rule::shared(volume_.energy[i], share, cap, diagonal));
@@ -53,7 +52,7 @@ class Gifts {
   };
   Balance of(int x, int y, int z) const {
     Balance all;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(flow_.paper.neighbours); ++d) {
+    for (int d = 0; d < flow_.paper.neighbours; ++d) {
       const Gift mine = given(x, y, z, d);
       all.out.amount += mine.amount;
       all.out.energy += mine.energy;
@@ -62,7 +61,7 @@ class Gifts {
       const Gift theirs = given(nx, y, nz, rule::kOpposite[d]);
       all.in.amount += theirs.amount;
       all.in.energy += theirs.energy;
-      all.content += static_cast<std::uint64_t>(theirs.amount) * volume_.heat[cells_.at(nx, y, nz)];
+      all.content += content_of(theirs.amount, volume_.heat[cells_.at(nx, y, nz)]);
     }
     return all;
   }
@@ -94,10 +93,10 @@ void Reference::find_patterns(std::uint32_t step, const Volume& volume, const Ac
     const std::int32_t share = rule::thermal_share(law.share, cells.heat(x, y, z), flow);
     const std::int32_t axis_flow = law.use_table ? 0 : rule::shared(a, share, cap, false);
     std::uint8_t available = 0;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(law.neighbours); ++d) {
+    for (int d = 0; d < law.neighbours; ++d) {
       const rule::Direction to = rule::kDirections[d];
       if (!is_open(cells, x, y, z, to)) continue;
-      const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+      const bool diagonal = rule::is_diagonal(d);
       if (rule::receives(a, axis_flow, cells.amount(x + to.dx, y, z + to.dz), margin, diagonal, law))
         available = static_cast<std::uint8_t>(available | 1u << d);
     }
@@ -130,7 +129,7 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     if (out.amount == 0 && in.amount == 0) return;
 
     const std::int32_t amount = volume.amount[i] - out.amount + in.amount;
-    next_.amount[i] = static_cast<std::uint16_t>(amount);
+    add(next_.amount[i], in.amount - out.amount);
 
     // Friction takes 1 - alpha of the arriving energy. Energy never exceeds the amount.
     const std::int32_t gained = printed ? in.energy : rule::scaled(in.energy, gifts.alpha(x, y, z), offset);
@@ -140,10 +139,8 @@ void Reference::spread(std::uint32_t step, Volume& volume, Ledger& ledger) {
     ledger.energy.capped += std::max(0, energy - amount);
 
     if (hot && in.amount > 0) {
-      content += static_cast<std::uint64_t>(volume.amount[i] - out.amount) * volume.heat[i];
-      const std::int32_t h = rule::mixed(content, amount, offset);
-      ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
-      next_.heat[i] = static_cast<std::uint16_t>(h);
+      content += content_of(volume.amount[i] - out.amount, volume.heat[i]);
+      mix(next_.heat[i], content, amount, offset, ledger);
     }
   });
   std::swap(volume.amount, next_.amount);

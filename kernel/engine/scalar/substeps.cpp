@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "kernel/automaton/rule/viscous.h"
 #include "kernel/engine/scalar/cells.h"
@@ -25,7 +25,7 @@ class Runs {
     do {
       const std::int32_t top = next;
       mass += top;
-      content += static_cast<std::uint64_t>(top) * volume_.heat[cells_.at(x, bottom + n, z)];
+      content += content_of(top, volume_.heat[cells_.at(x, bottom + n, z)]);
       ++n;
       if (cells_.blocked(x, bottom + n, z)) break;
       next = cells_.amount(x, bottom + n, z);
@@ -41,11 +41,10 @@ class Runs {
     const state::Volume& v = volume_;
     for (int z = 0; z < v.grid.z; ++z)
       for (int y = 0; y < v.grid.y; ++y)
-        for (std::size_t w = 0; w < v.liquid.row_words(); ++w) {
+        for (int w = 0; w < std::ssize(v.liquid.row(y, z)); ++w) {
           std::uint64_t begins = v.liquid.row(y, z)[w];
           if (begins != 0 && y > 0) begins &= v.solid.row(y - 1, z)[w] | v.inert.row(y - 1, z)[w];
-          for (; begins != 0; begins &= begins - 1)
-            visit(static_cast<int>(64 * w) + std::countr_zero(begins), y, z);
+          for (; begins != 0; begins &= begins - 1) visit(64 * w + std::countr_zero(begins), y, z);
         }
   }
 

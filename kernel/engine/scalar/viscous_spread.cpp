@@ -1,6 +1,5 @@
 // Phase `spread` of the viscous law lets liquid flow down the difference of free-surface heads.
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -46,10 +45,10 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
     const rule::Column own = column(x, y, z);
     std::int32_t out = 0, in = 0;
     std::uint64_t content = 0;
-    for (std::size_t d = 0; d < 8; ++d) {
+    for (int d = 0; d < 8; ++d) {
       const rule::Direction to = rule::kDirections[d];
       const int nx = x + to.dx, nz = z + to.dz;
-      const bool diagonal = rule::is_diagonal(static_cast<int>(d));
+      const bool diagonal = rule::is_diagonal(d);
       if (!is_open(cells, x, y, z, to)) continue;
       const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
@@ -60,17 +59,15 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       const std::int32_t taken =
           rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
       in += taken;
-      content += static_cast<std::uint64_t>(taken) * volume.heat[j];
+      content += content_of(taken, volume.heat[j]);
     }
     if (out == 0 && in == 0) return;
 
     const std::int32_t amount = volume.amount[i] - out + in;
-    next_.amount[i] = static_cast<std::uint16_t>(amount);
+    add(next_.amount[i], in - out);
     if (hot && in > 0) {
-      content += static_cast<std::uint64_t>(volume.amount[i] - out) * volume.heat[i];
-      const std::int32_t h = rule::mixed(content, amount, mixing);
-      ledger.heat.rounded += static_cast<state::Sum>(amount) * h - static_cast<state::Sum>(content);
-      next_.heat[i] = static_cast<std::uint16_t>(h);
+      content += content_of(volume.amount[i] - out, volume.heat[i]);
+      mix(next_.heat[i], content, amount, mixing, ledger);
     }
   });
   std::swap(volume.amount, next_.amount);

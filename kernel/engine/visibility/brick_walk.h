@@ -82,8 +82,9 @@ class BrickWalk {
     std::uint32_t packed = kInside;
     std::array<std::uint32_t, 3> moves{};
     for (std::size_t a = 0; a < 3; ++a) {
-      packed += static_cast<std::uint32_t>(cell_[a] & 7) << (5 * a);
-      moves[a] = static_cast<std::uint32_t>(way_[a]) << (5 * a);
+      const std::uint32_t inside = cell_[a] & 7, way = way_[a];
+      packed += inside << (5 * a);
+      moves[a] = way << (5 * a);
     }
     End end = End::left;
     do {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 
 #include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
@@ -142,7 +143,7 @@ void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
   }
   band.cuts = write(band, result);
   const state::Grid& g = opaque_.grid();
-  const auto cells = static_cast<std::size_t>(band.y1 - band.y0) * g.x;
+  const std::size_t rows = band.y1 - band.y0, cells = rows * g.x;
   band.kept = bytes <= kMostKept * cells + (std::size_t{16} << 10);
   if (!band.kept) band.sources.assign(sources_.size(), {});
 }
@@ -177,8 +178,7 @@ std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& resu
 // already.
 bool KeptRays::rests(const Band& band) const {
   if (!steady_ || !band.kept) return false;
-  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
-       ++w)
+  for (int w = band.y0 / 64; 64 * w < band.y1; ++w)
     if (rows_of(band, w, true) != 0) return false;
   return std::all_of(band.sources.begin(), band.sources.end(), [&](const LitCells& own) {
     return std::all_of(own.fates.begin(), own.fates.end(), [&](Fate fate) { return known(opaque_, fate); });
@@ -187,9 +187,9 @@ bool KeptRays::rests(const Band& band) const {
 
 // Returns the rows of the band among y = 64 w to 64 w + 63. With `changed` it takes only those that may have
 // other faces than before.
-std::uint64_t KeptRays::rows_of(const Band& band, std::size_t w, bool changed) const {
+std::uint64_t KeptRays::rows_of(const Band& band, int w, bool changed) const {
   const auto below = [w](int y) {  // rows of this word before y
-    const int rows = std::clamp(y - 64 * static_cast<int>(w), 0, 64);
+    const int rows = std::clamp(y - 64 * w, 0, 64);
     return rows == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rows) - 1;
   };
   const std::uint64_t rows = below(band.y1) & ~below(band.y0);
@@ -217,9 +217,10 @@ void KeptRays::renew(Band& band, const Source& source, const Surface& surface, L
 LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells& old, bool still) const {
   const LitCells none;
   RenewedLitCells now(still ? old : none, setting_.rays());
-  const auto row_place = [&](int y) { return static_cast<std::uint32_t>(y - band.y0) << 16; };
+  const auto row_place = [&](std::uint32_t y) { return (y - band.y0) << 16; };
+  const auto words = std::ssize(opaque_.plane().row(band.y0, band.z));
   const auto find_row = [&](int y) {
-    for (std::size_t w = 0; w < opaque_.plane().row_words(); ++w) {
+    for (int w = 0; w < words; ++w) {
       const Surface::Faces faces = surface.faces(opaque_, w, y, band.z);
       std::uint64_t any = 0;
       for (const std::uint64_t word : faces) any |= word;
@@ -228,15 +229,14 @@ LitCells KeptRays::find(const Band& band, const Surface& surface, const LitCells
         std::uint8_t looking = 0;
         for (std::size_t f = 0; f < faces.size(); ++f)
           looking = static_cast<std::uint8_t>(looking | (faces[f] >> b & 1) << f);
-        now.look(row_place(y) | (64 * static_cast<int>(w) + b), looking);
+        now.look(row_place(y) | (64 * w + b), looking);
       }
     }
     now.drop_before(row_place(y + 1));
   };
-  for (std::size_t w = static_cast<std::size_t>(band.y0) / 64; 64 * w < static_cast<std::size_t>(band.y1);
-       ++w)
+  for (int w = band.y0 / 64; 64 * w < band.y1; ++w)
     for (std::uint64_t rows = rows_of(band, w, still); rows != 0; rows &= rows - 1) {
-      const int y = 64 * static_cast<int>(w) + std::countr_zero(rows);
+      const int y = 64 * w + std::countr_zero(rows);
       now.keep_before(row_place(y));
       find_row(y);
     }
@@ -296,7 +296,8 @@ std::uint32_t KeptRays::value(const Band& band, const Source& source, const Lit&
 }
 
 Cell KeptRays::cell_at(const Band& band, const Lit& lit) {
-  return {static_cast<int>(lit.place & 0xffff), band.y0 + static_cast<int>(lit.place >> 16), band.z};
+  const int x = lit.place & 0xffff, row = lit.place >> 16;
+  return {x, band.y0 + row, band.z};
 }
 
 std::size_t KeptRays::kept_bytes() const {

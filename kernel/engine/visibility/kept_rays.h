@@ -58,7 +58,7 @@ class KeptRays final : public Provider {
   void erase(const Band& band, state::Field<std::uint16_t>& result) const;
   void renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const;
   bool rests(const Band& band) const;
-  std::uint64_t rows_of(const Band& band, std::size_t w, bool changed) const;
+  std::uint64_t rows_of(const Band& band, int w, bool changed) const;
   LitCells find(const Band& band, const Surface& surface, const LitCells& old, bool still) const;
   class Batch;
   Casts cast(const Band& band, const Source& source, LitCells& own) const;

@@ -20,7 +20,7 @@ void Opaque::resize(const state::Grid& grid) {
   solid_ = state::BitPlane(grid);
   bits_ = state::Pages(bricks_.cells() * kSide * kSide);
   contents_.assign(bricks_.cells(), kEmpty);
-  column_words_ = (static_cast<std::size_t>(grid.y) + 63) / 64;
+  column_words_ = state::words_for(grid.y);
   changed_.assign(column_words_ * grid.z, 0);
 }
 
@@ -79,7 +79,7 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
 }
 
 void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z) {
-  const std::size_t first = bricks_.index(kWordBricks * static_cast<int>(w), y / kSide, z / kSide);
+  const std::size_t first = bricks_.index(kWordBricks * w, y / kSide, z / kSide);
   const std::size_t row = z % kSide * kSide + y % kSide;
   for (std::size_t k = 0; k < kWordBricks; ++k) {
     if (((was ^ is) >> (kSide * k) & 0xff) == 0) continue;
@@ -106,7 +106,7 @@ int Opaque::look_into(int layer) {
 }
 
 bool Opaque::clear_ahead(std::size_t brick, const Cell& cell, std::size_t octant) const {
-  const auto x = static_cast<unsigned>(cell[0] & 7), y = static_cast<unsigned>(cell[1] & 7);
+  const unsigned x = cell[0] & 7, y = cell[1] & 7;
   int z = cell[2] & 7;
   constexpr std::uint64_t kRows = 0x0101'0101'0101'0101;
   const std::uint64_t row = (octant & 1) != 0 ? 0xffu << x & 0xff : 0xffu >> (7 - x);

@@ -63,9 +63,7 @@ class Opaque {
   News take_layer(const state::Volume& volume, int layer);
   void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
   int look_into(int layer);
-  std::size_t change_word(int y, int z) const {
-    return z * column_words_ + (static_cast<std::size_t>(y) >> 6);
-  }
+  std::size_t change_word(std::size_t y, std::size_t z) const { return z * column_words_ + y / 64; }
   std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(bits_.data()); }
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(bits_.data()); }
 

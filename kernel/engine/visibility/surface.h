@@ -24,11 +24,11 @@ class Surface {
 
   Surface(const state::Grid& grid, rule::SourceKind kind, const rule::SourceKey& source)
       : grid_(grid), kind_(kind), source_(source) {
-    const std::size_t words = (static_cast<std::size_t>(grid.x) + 63) / 64;
+    const std::size_t words = state::words_for(grid.x);
     up_.assign(words, 0);
     down_.assign(words, 0);
     for (int x = 0; x < grid.x; ++x) {
-      const auto w = static_cast<std::size_t>(x) >> 6;
+      const int w = x / 64;
       up_[w] |= std::uint64_t{looks(0, x)} << (x & 63);
       down_[w] |= std::uint64_t{looks(1, x)} << (x & 63);
     }

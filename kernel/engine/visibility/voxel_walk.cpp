@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
@@ -95,9 +95,9 @@ std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const ru
     workers_.run(g.z, [&](int z) {
       for (int y = 0; y < g.y; ++y) {
         const auto solid = volume.solid.row(y, z);
-        for (std::size_t w = 0; w < solid.size(); ++w)
+        for (int w = 0; w < std::ssize(solid); ++w)
           for (std::uint64_t bits = solid[w]; bits != 0; bits &= bits - 1)
-            light(static_cast<int>(64 * w) + std::countr_zero(bits), y, z);
+            light(64 * w + std::countr_zero(bits), y, z);
       }
     });
   }

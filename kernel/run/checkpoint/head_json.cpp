@@ -211,7 +211,7 @@ SceneText scene_of(const Object& object, const std::filesystem::path& file, stat
                            entry.digest("xxh3")});
   }
   scene.initial_digest = object.digest("initial_digest");
-  if (object.flag("terrain")) scene.terrain.resize(static_cast<std::size_t>(grid.x) * grid.z);
+  if (object.flag("terrain")) scene.terrain.resize(grid.columns());
   scene.textured = object.flag("textured");
   return scene;
 }

@@ -74,11 +74,10 @@ class Sampler {
 }  // namespace
 
 Window window_of(const Box& box, state::Grid grid) {
-  const auto clip = [](double low, double high, int cells, int& first, int& count) {
+  const auto clip = [](double low, double high, double cells, int& first, int& count) {
     if (!std::isfinite(low) || !std::isfinite(high)) return;  // a scale left no finite numbers
-    first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(cells)));
-    count =
-        std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(cells))) - first);
+    first = static_cast<int>(std::clamp(std::floor(low), 0.0, cells));
+    count = std::max(0, static_cast<int>(std::clamp(std::ceil(high), 0.0, cells)) - first);
   };
   Window window;
   clip(box.low.x, box.high.x, grid.x, window.x, window.size.x);

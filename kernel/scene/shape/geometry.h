@@ -18,6 +18,8 @@ inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; 
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
 inline Point to_point(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
+inline int floor_of(double coordinate) { return static_cast<int>(std::floor(coordinate)); }
+
 struct Box {
   Point low, high;
 

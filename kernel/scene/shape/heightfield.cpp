@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+
+#include "kernel/scene/shape/geometry.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -18,7 +19,7 @@ std::array<double, 4> spline_weights(double t) {
 
 double Elevation::at(int column, int row) const {
   const int c = std::clamp(column, 0, columns - 1), r = std::clamp(row, 0, rows - 1);
-  return value[static_cast<std::size_t>(r) * columns + c];
+  return value[place(c, r)];
 }
 
 void smooth(Elevation& elevation, int passes) {
@@ -29,8 +30,7 @@ void smooth(Elevation& elevation, int passes) {
         const auto row = [&](int k) {
           return before.at(c - 1, k) + 2 * before.at(c, k) + before.at(c + 1, k);
         };
-        elevation.value[static_cast<std::size_t>(r) * before.columns + c] =
-            (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
+        elevation.value[before.place(c, r)] = (row(r - 1) + 2 * row(r) + row(r + 1)) / 16;
       }
   }
 }
@@ -41,11 +41,11 @@ std::vector<double> resample(const Elevation& elevation, int nx, int nz) {
   result.reserve(static_cast<std::size_t>(nx) * nz);
   for (int z = 0; z < nz; ++z) {
     const double v = (z + 0.5) / nz * elevation.rows - 0.5;
-    const int row = static_cast<int>(std::floor(v));
+    const int row = floor_of(v);
     const auto row_weights = spline_weights(v - row);
     for (int x = 0; x < nx; ++x) {
       const double u = (x + 0.5) / nx * elevation.columns - 0.5;
-      const int column = static_cast<int>(std::floor(u));
+      const int column = floor_of(u);
       const auto column_weights = spline_weights(u - column);
       double sum = 0;
       for (int j = 0; j < 4; ++j)

@@ -1,6 +1,7 @@
 // Terrain comes from ESRI ASCII grids of elevation, stretched smoothly over the whole grid.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Elevation {
   long long unnamed = 0;          // cells of -9999 in such a file
   double cell_x = 1, cell_y = 1;  // size of a cell of the file, in any unit
 
+  std::size_t place(std::size_t column, std::size_t row) const { return row * columns + column; }
   double at(int column, int row) const;  // clamped to the border
 };
 

@@ -121,9 +121,15 @@ MeshLayers::Range MeshLayers::common(Range a, Range b) {
   return {first, std::max(first, std::min(a.end, b.end))};
 }
 
+// Returns the number of the sample at this depth. It has a fraction.
+double MeshLayers::sample_of(int axis, double depth) const {
+  constexpr double spacing = kSampleSpacing;
+  return (depth - static_cast<double>(low_[at(axis)])) / spacing;
+}
+
 // Returns the first sample at or behind a crossing.
 int MeshLayers::sample_at(int axis, double depth) const {
-  const double sample = (depth - static_cast<double>(low_[at(axis)])) / static_cast<double>(kSampleSpacing);
+  const double sample = sample_of(axis, depth);
   if (!(sample > 0)) return 0;
   if (sample >= count_[at(axis)]) return count_[at(axis)];
   const int below = static_cast<int>(sample);
@@ -199,8 +205,7 @@ void MeshLayers::cross_p(const Triangle& triangle, int layer, Range band) {
   const Range rows = common(samples(q_, first, last), band);
   RayCrossings::Walk walk(crossings, place(q_, rows.first), v);
   for (int q = rows.first; q < rows.end; ++q, walk.next()) {
-    const auto to = static_cast<std::size_t>(sample_at(p_, walk.depth())),
-               row = static_cast<std::size_t>(q - band.first);
+    const std::size_t to = sample_at(p_, walk.depth()), row = q - band.first;
     add_saturated(total_p_[row], -crossings.sign());
     if (to >= width_) continue;
     add_saturated(along_p_[row * width_ + to], -crossings.sign());
@@ -280,11 +285,8 @@ MeshLayers::Range MeshLayers::within(const RayCrossings& crossings, Range rays, 
                                      Range part) const {
   constexpr int slack = 2;  // samples
   if (rays.end - rays.first < 8) return rays;
-  const auto sample_of = [&](int p) {
-    const double depth = crossings.depth(place(p_, p), v);
-    return (depth - static_cast<double>(low_[at(axis)])) / static_cast<double>(kSampleSpacing);
-  };
-  const double from = sample_of(rays.first), to = sample_of(rays.end - 1);
+  const auto at_ray = [&](int p) { return sample_of(axis, crossings.depth(place(p_, p), v)); };
+  const double from = at_ray(rays.first), to = at_ray(rays.end - 1);
   const double slope = (to - from) / (rays.end - 1 - rays.first);
   // The first part has all that lies before the window, too.
   const double least = part.first == 0 ? -1e18 : part.first - slack, most = part.end + slack;
@@ -300,9 +302,9 @@ void MeshLayers::add_row(int q, int row, int layer) {
   if (surface_.closed)
     add_closed_row(q, row);
   else if (inside_ == Inside::winding)
-    add_open_row<Inside::winding>(q, static_cast<std::size_t>(row), layer);
+    add_open_row<Inside::winding>(q, row, layer);
   else
-    add_open_row<Inside::parity>(q, static_cast<std::size_t>(row), layer);
+    add_open_row<Inside::parity>(q, row, layer);
 }
 
 void MeshLayers::add_closed_row(int q, std::size_t row) {
@@ -359,8 +361,7 @@ void MeshLayers::add_open_row(int q, std::size_t row, int layer) {
 // Stores a complete band of a layer of cells.
 void MeshLayers::store(int layer, Range band) {
   const state::Grid size = coverage_.window.size;
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(size.x),
-                                          static_cast<std::size_t>(size.x) * size.y};
+  const std::array<std::size_t, 3> stride{1, size.index(0, 1, 0), size.index(0, 0, 1)};
   const std::size_t first = (layer / kSamplesPerAxis) * stride[at(s_)];
   const std::size_t width = width_ / kSamplesPerAxis, end = at(band.end) / kSamplesPerAxis;
   for (std::size_t q = at(band.first) / kSamplesPerAxis; q < end; ++q)

@@ -35,6 +35,7 @@ class MeshLayers {
   std::int64_t place(int axis, int sample) const { return low_[axis] + sample * kSampleSpacing; }
   Range samples(int axis, std::int64_t first, std::int64_t last) const;
   static Range common(Range a, Range b);
+  double sample_of(int axis, double depth) const;
   int sample_at(int axis, double depth) const;
 
   void total_through_layers();

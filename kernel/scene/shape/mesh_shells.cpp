@@ -71,8 +71,8 @@ class Shells {
 
  private:
   static std::int64_t snap(double v) {
-    constexpr std::int64_t snaps_per_cell = kMeshUnit / kMeshSnap;
-    return std::llround(v * static_cast<double>(snaps_per_cell)) * kMeshSnap;
+    constexpr double snaps_per_cell = kMeshUnit / kMeshSnap;
+    return std::llround(v * snaps_per_cell) * kMeshSnap;
   }
 
   // Orients the patches. A patch has faces that are connected where exactly two of them meet. They run

@@ -80,13 +80,14 @@ double Polygon::squared_distance(const Run& run, Point2 p) const {
 
 std::vector<Point2> smooth_outline(const std::vector<Point2>& points) {
   constexpr int kPieces = 8;
+  constexpr double kPart = 1.0 / kPieces;
   std::vector<Point2> result;
   const std::size_t n = points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 a = points[(i + n - 1) % n], b = points[i], c = points[(i + 1) % n], d = points[(i + 2) % n];
     if (same(b, c)) continue;
     for (int k = 0; k < kPieces; ++k) {
-      const double t = static_cast<double>(k) / kPieces;
+      const double t = k * kPart;
       const auto curve = [t](double p, double q, double r, double s) {
         return q + 0.5 * t * (r - p + t * (2 * p - 5 * q + 4 * r - s + t * (3 * (q - r) + s - p)));
       };

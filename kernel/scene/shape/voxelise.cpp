@@ -63,7 +63,7 @@ class Voxeliser {
         inert_(grid),
         solid_temperature_(grid),
         inert_wall_(grid),
-        touched_(static_cast<std::size_t>(grid.y) * grid.z) {}
+        touched_(row_of(0, grid.z)) {}
 
   void add(const Entry& entry, const Coverage& coverage) {
     const Window& window = coverage.window;
@@ -87,7 +87,7 @@ class Voxeliser {
       ground[c] = static_cast<int>(std::lround(terrain.height[c]));
 
     for (int z = 0; z < grid.z; ++z) {
-      const std::size_t columns = static_cast<std::size_t>(z) * grid.x;
+      const std::size_t columns = grid.index(0, z, 0);
       const auto first = ground.begin() + columns;
       const int highest = *std::max_element(first, first + grid.x);
       for (int y = 0; y < grid.y; ++y) {
@@ -105,7 +105,7 @@ class Voxeliser {
   }
 
  private:
-  std::size_t row_of(int y, int z) const { return static_cast<std::size_t>(z) * volume_.grid.y + y; }
+  std::size_t row_of(std::size_t y, std::size_t z) const { return z * volume_.grid.y + y; }
 
   // Returns the bed offset. It is at least 1 for isothermal walls, since no cell without an amount has heat.
   static rule::Amount bed(double fraction, long least) {
@@ -137,7 +137,8 @@ class Voxeliser {
       energy = std::min(energy, amount);
       return;
     }
-    const double covered = static_cast<double>(samples) / kSamplesPerCell;
+    constexpr double kAll = kSamplesPerCell;
+    const double covered = samples / kAll;
     const rule::Amount poured = to_amount(entry.amount * covered);
     if (samples < kLeastSolid || poured <= amount) return;
     amount = poured;

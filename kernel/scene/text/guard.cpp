@@ -42,7 +42,7 @@ class Guard {
 
  private:
   void look_at(char c) {
-    const auto byte = static_cast<unsigned char>(c);
+    const unsigned char byte = c;
     if (c == '\n') {
       dots_ = 0;
       ++line_;

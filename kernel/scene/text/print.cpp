@@ -77,7 +77,7 @@ std::string table_text(const Value& table, const std::string& path) {
 std::string toml_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
+    const unsigned char code = c;
     if (c == '"' || c == '\\')
       result += std::string("\\") + c;
     else if (code < 0x20 || code == 0x7f)

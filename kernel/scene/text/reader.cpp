@@ -97,8 +97,8 @@ double Reader::number(std::string_view key, const Range& range, std::optional<do
   return value ? checked_number(*value, name(key), range) : *fallback;
 }
 
-std::int64_t Reader::integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
-                             std::optional<std::int64_t> fallback) {
+std::int64_t Reader::checked_integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
+                                     std::optional<std::int64_t> fallback) {
   const Value* value = find_or_fail(key, !fallback);
   if (!value) return *fallback;
   if (value->kind != Value::Kind::integer) fail_kind(*value, name(key), "an integer");

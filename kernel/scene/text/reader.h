@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "kernel/scene/text/document.h"
@@ -35,8 +37,12 @@ class Reader {
   // Each function gives the value of `key`. Without the key it gives the fallback, or throws InputError if
   // there is none.
   double number(std::string_view key, const Range& range, std::optional<double> fallback = {});
-  std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
-                       std::optional<std::int64_t> fallback = {});
+  // An integer has the type of its upper bound.
+  template <std::integral T>
+  T integer(std::string_view key, std::type_identity_t<T> lowest, T highest,
+            std::optional<std::type_identity_t<T>> fallback = {}) {
+    return static_cast<T>(checked_integer(key, lowest, highest, fallback));
+  }
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
   // Returns the index of the chosen name.
@@ -69,6 +75,8 @@ class Reader {
   const Value* find(std::string_view key);
   const Value* find_or_fail(std::string_view key, bool required);
   [[noreturn]] void fail_unknown(std::size_t index) const;
+  std::int64_t checked_integer(std::string_view key, std::int64_t lowest, std::int64_t highest,
+                               std::optional<std::int64_t> fallback);
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count, const Range& range,
                                              bool required);
 
