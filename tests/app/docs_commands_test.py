@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every command of the program that README and docs show is one that works, and so is every scene.
 
-  docs_commands_test.py PROGRAM ROOT BUILD          a command that still works after 0.6 s is let go
+  docs_commands_test.py PROGRAM ROOT BUILD          a command that still works after 0.3 s is let go
   docs_commands_test.py PROGRAM ROOT BUILD --whole  each runs to its end (but measurements of half an hour)
   docs_commands_test.py --self-test
 
@@ -91,7 +91,7 @@ class Reader:
     def must(self, command):
         subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.env, check=True)
 
-    def offence(self, command, limit=0.6):
+    def offence(self, command, limit=0.3):
         if is_mention(command):
             words = command.split()
             said = subprocess.run([*words[:2], "--help"], cwd=self.folder, env=self.env, capture_output=True, text=True)

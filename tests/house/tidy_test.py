@@ -23,7 +23,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 TIDY = shutil.which("clang-tidy")
-BUDGET = 60  # seconds for --changed
+BUDGET = 40  # seconds for --changed
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+\.h)[">]', re.M)
 PRECOMPILED = re.compile(r"-Winvalid-pch +-include +\S+/cmake_pch\.hxx")
 SKIPPED = 77
