@@ -87,7 +87,7 @@ void read_cycles(scene::Reader& from, memory::Parameters& p) {
   p.rp = cycles("rp", 1, kMost);
   p.rp_all = cycles("rp_all", 1, kMost);
   p.ras = cycles("ras", 1, kMost);
-  p.rc = cycles("rc", 1, kMost);
+  p.rc = cycles("rc", p.ras, kMost);
   p.ccd_s = cycles("ccd_s", p.beats(), kMost);
   p.ccd_l = cycles("ccd_l", p.ccd_s, kMost);
   p.rrd_s = cycles("rrd_s", 1, kMost);
