@@ -30,6 +30,7 @@ fs::path file_of(const fs::path& given) {
   if (fs::is_regular_file(given, ignored)) return given;
   if (const std::vector<io::CheckpointFile> files = io::checkpoints_in(given); !files.empty())
     return files.front().file;
+  if (fs::is_regular_file(given / io::kLastState, ignored)) return given / io::kLastState;
   const std::vector<fs::path> left = checkpoints_left(given);
   if (left.empty() && !fs::exists(given, ignored)) return given;  // its reader says so
   if (left.empty())

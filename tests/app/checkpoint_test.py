@@ -130,6 +130,13 @@ class Checkpoints(unittest.TestCase):
         (self.folder / "longer/last.vxc").unlink()
         self.refused("run", "--resume", "longer", "--steps", "+3", names="the run is complete, and its last state is not there")
 
+    def test_a_stopped_run_is_not_replaced(self):
+        before = outcome(self.folder / "kept")
+        for arguments in (["run", self.scene, "--steps", "3"], ["export", self.scene], ["render", self.scene, "--turntable", "2"]):
+            self.refused(*arguments, "--out", "kept", names=f"holds a run that was stopped, with a checkpoint of step {self.step}; `voxmelt run --resume kept`")
+        self.assertEqual(outcome(self.folder / "kept"), before)
+        self.assertEqual(voxmelt("info", "whole", cwd=self.folder).returncode, 0, "its last state")
+
     def test_nothing_to_resume(self):
         self.refused("run", "--resume", "nowhere", names="there is no checkpoint in it")
         self.refused("run", "--resume", "kept", self.scene, names="--resume")
@@ -227,7 +234,8 @@ class Checkpoints(unittest.TestCase):
         self.refused("info", hostile, names="is no checkpoint of voxmelt")
         hostile.unlink()
         self.refused("info", hostile, names="there is no such file")
-        self.refused("info", self.folder / "whole", names="there is no checkpoint in it")
+        (self.folder / "empty").mkdir()
+        self.refused("info", self.folder / "empty", names="there is no checkpoint in it")
 
 
     # Whoever writes one by hand gets the checksums right, and the digest too.

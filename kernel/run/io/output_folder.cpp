@@ -103,6 +103,10 @@ OutputFolder::OutputFolder(const fs::path& place, bool goes_on)
   if (clear_leavings(place_, true))
     refuse(place_, "another run is writing there; wait for it, or choose another");
   if (!goes_on) {
+    if (holds_work(place_))
+      refuse(place_, "holds a run that was stopped, with a checkpoint of step " +
+                         std::to_string(checkpoints_in(place_).front().step) + "; `voxmelt run --resume " +
+                         place.string() + "` goes on with it, and who removes its checkpoints begins anew");
     for (const fs::path& left : leavings_of(place_))
       if (holds_work(left))
         refuse(place_, "a run that died left a checkpoint of step " +
