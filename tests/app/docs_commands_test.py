@@ -11,6 +11,7 @@ names are tests that ctest knows. docs/tutorial.md is followed from its beginnin
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -104,6 +105,8 @@ class Reader:
         except subprocess.TimeoutExpired:
             run.send_signal(signal.SIGINT)
             run.communicate()
+            for left in self.folder.glob("out/*/checkpoints"):  # a stopped run is not replaced
+                shutil.rmtree(left)
             return "it did not end" if self.whole and not TAKES_LONG.match(command) else None
         fine = next((codes for word, codes in OTHER_CODES.items() if word in command), (0,))
         return None if run.returncode in fine else f"exit code {run.returncode}: {error.strip()[-300:]}"
