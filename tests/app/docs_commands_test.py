@@ -79,6 +79,7 @@ class Reader:
         self.must("voxmelt run scene.toml --out out/bunny --quiet")
         self.must("voxmelt run scene.toml --out out/long --quiet")
         self.must("voxmelt export scene.toml --out exported --quiet")
+        shutil.copytree(self.folder / "out", self.folder / "finished")
         (self.folder / "hwmodel").symlink_to(root / "hwmodel")
         run = subprocess.Popen(["voxmelt", "run", "scene.toml", "--steps", "4000000", "--frame-every", "0", "--out", "out/stopped", "--quiet"],
                                cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)
@@ -105,8 +106,8 @@ class Reader:
         except subprocess.TimeoutExpired:
             run.send_signal(signal.SIGINT)
             run.communicate()
-            for left in self.folder.glob("out/*/checkpoints"):  # a stopped run is not replaced
-                shutil.rmtree(left)
+            shutil.rmtree(self.folder / "out")  # a stopped run is not replaced
+            shutil.copytree(self.folder / "finished", self.folder / "out")
             return "it did not end" if self.whole and not TAKES_LONG.match(command) else None
         fine = next((codes for word, codes in OTHER_CODES.items() if word in command), (0,))
         return None if run.returncode in fine else f"exit code {run.returncode}: {error.strip()[-300:]}"
