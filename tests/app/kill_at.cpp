@@ -31,6 +31,7 @@ struct Plan {
   int signal = static_cast<int>(number_of("KILL_SIGNAL", SIGKILL));
   bool torn = std::getenv("KILL_TORN") != nullptr;
   const char* log = std::getenv("KILL_LOG");
+  pid_t process = ::getpid();  // a child that is about to become ffmpeg does not count
 };
 const Plan& plan() {
   static const Plan one;
@@ -44,6 +45,7 @@ Function* original(const char* name) {
 }
 
 bool is_next(const char* name) {
+  if (::getpid() != plan().process) return false;
   if (plan().log != nullptr) {
     static const auto real = original<int(const char*, int, ...)>("open");
     const int log = real(plan().log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
