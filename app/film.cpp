@@ -45,7 +45,7 @@ void set_size(scene::Camera& camera, const std::string& size) {
         fmt::format("--size {}: error: want WIDTHxHEIGHT, each 16 to {}", size, scene::kWidestPicture));
 }
 
-Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, render::Frames::Plan plan)
+Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan)
     : scene_(scene),
       threads_(plan.threads),
       frames_(folder, with_frame_bytes(plan, scene.camera)),

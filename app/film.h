@@ -24,7 +24,7 @@ void set_size(scene::Camera& camera, const std::string& size);
 class Film {
  public:
   // Frames go into `folder`. The plan need not say how large they are: the scene does.
-  Film(const scene::Scene& scene, const std::filesystem::path& folder, render::Frames::Plan plan);
+  Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan);
 
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);
