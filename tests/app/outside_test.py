@@ -213,18 +213,18 @@ test -f v/frames/frame_00000.png; ls v/checkpoints > checkpoints
                 place = root / library[1].lstrip("/")
                 place.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(os.path.realpath(library[1]), place)
-        (root / "work").mkdir()
+        (root / "place").mkdir()
         shutil.copy(PROGRAM, root / "voxmelt")
-        shutil.copy(self.folder / "scene.toml", root / "work")
-        command = f"/voxmelt {' '.join(RUN).replace('scene.toml', '/work/scene.toml')}"
-        for how in (f"chroot root env -i {command} --out /work/a", f"chroot root {command} --out /work/a",
-                    f"mount --bind root root; mount --bind root/work root/work; mount -o remount,bind,ro root; chroot root {command} --out /work/b"):
+        shutil.copy(self.folder / "scene.toml", root / "place")
+        command = f"/voxmelt {' '.join(RUN).replace('scene.toml', '/place/scene.toml')}"
+        for how in (f"chroot root {command} --out /place/a",
+                    f"mount --bind root root; mount --bind root/place root/place; mount -o remount,bind,ro root; chroot root {command} --out /place/b"):
             with self.subTest(how):
-                result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-ec", how.replace("env -i ", "")], cwd=self.folder, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"},
+                result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-ec", how], cwd=self.folder, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"},
                                         capture_output=True, text=True)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
-        frames = {p.name: p.read_bytes() for p in (root / "work/a/frames").iterdir()}
-        self.assertEqual({p.name: p.read_bytes() for p in (root / "work/b/frames").iterdir()}, frames)
+        frames = {p.name: p.read_bytes() for p in (root / "place/a/frames").iterdir()}
+        self.assertEqual({p.name: p.read_bytes() for p in (root / "place/b/frames").iterdir()}, frames)
         if os.geteuid() == 0 and shutil.which("setpriv"):
             others = f"'{PROGRAM}' {' '.join(RUN)}"
             (self.folder / "mine").mkdir(mode=0o755)
