@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -83,6 +84,27 @@ void require_room(const explore::Question& question, const std::string& memory) 
                     memory, there, needed));
 }
 
+// Says every ten seconds that the sweep goes on.
+class SweepProgress {
+ public:
+  explicit SweepProgress(bool quiet) : quiet_(quiet) {}
+  void operator()() {
+    stop_if_interrupted();
+    const std::chrono::seconds now = since();
+    if (quiet_ || now < said_ + std::chrono::seconds(10)) return;
+    said_ = now;
+    print_error("weighing designs, {} s\n", now.count());
+  }
+
+ private:
+  std::chrono::seconds since() const {
+    return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin_);
+  }
+  bool quiet_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::chrono::seconds said_{0};
+};
+
 int run_explore(ExploreCommand command) {
   split_sets(command);
   const Common& common = command.common;
@@ -109,7 +131,7 @@ int run_explore(ExploreCommand command) {
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
-  const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
+  const explore::Swept swept = sweep(question, axes, SweepProgress(common.quiet));
   if (swept.points.empty())
     throw UsageError(
         fmt::format("error: hw.tile = {}: no lanes and steps that are tried can have such tiles: "

@@ -97,7 +97,8 @@ PreparedRun prepare(const RunOptions& options) {
   if (!common.report.empty()) record.common.report = std::filesystem::absolute(common.report).string();
   const StepsWanted steps = options.steps ? steps_wanted(*options.steps) : StepsWanted{scene.steps};
   if (steps.further)
-    throw UsageError(fmt::format("--steps {}: error: + goes on with a run of --resume", *options.steps));
+    throw UsageError(fmt::format(
+        "--steps {}: error: +N means steps further than the run of --resume has made", *options.steps));
   record.steps = steps.count;
   record.frame_every = options.frame_every.value_or(scene.frame_every);
   record.size = options.size.value_or("");

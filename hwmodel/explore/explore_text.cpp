@@ -48,7 +48,26 @@ std::string row_of(const Explored& explored, std::size_t at) {
                             checked->predicted - checked->cycles, 100 * checked->error());
 }
 
-// Lists what would make the best design faster, the greatest gain first.
+// Says what the smallest design lacks, where none fits.
+std::string lack_of(const Explored& explored) {
+  const std::vector<Point>& points = explored.swept.points;
+  const Point& least = *std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    return std::pair(a.taken.fullest, a.taken.amounts[kLut]) <
+           std::pair(b.taken.fullest, b.taken.amounts[kLut]);
+  });
+  const Device& device = explored.question.device;
+  const Amounts usable = device.usable();
+  std::string text;
+  if (least.taken.lutram > device.lutram)
+    text = fmt::format("{} LUT as memory, where {} are usable", least.taken.lutram, device.lutram);
+  for (const Resource r : kEachResource)
+    if (least.taken.amounts[r] > usable[r])
+      text += fmt::format("{}{} {}, where {} are usable", text.empty() ? "" : "; ", least.taken.amounts[r],
+                          unit_of(r), usable[r]);
+  return fmt::format("The smallest, {}, takes {}.", design_of(least), text);
+}
+
+// Lists what would make the best design faster by 1 % and more, the greatest gain first.
 std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::vector<std::pair<std::int64_t, std::string>> bounds;
@@ -58,6 +77,7 @@ std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& expl
     bounds.emplace_back(explored.answer.with_any_memory, "the memory");
   if (explored.answer.with_next_clock > best)
     bounds.emplace_back(explored.answer.with_next_clock, "the clock");
+  std::erase_if(bounds, [&](const auto& bound) { return gain(bound.first, best) < 1; });
   std::stable_sort(bounds.begin(), bounds.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   return bounds;
@@ -95,8 +115,8 @@ const Checked* checked_at(const Explored& explored, std::size_t point) {
 std::string sentence_of(const Explored& explored) {
   const Device& device = explored.question.device;
   if (!explored.answer.best)
-    return fmt::format("None of {} designs for {} fits on {}.", explored.swept.points.size(), explored.scene,
-                       device.name);
+    return fmt::format("None of {} designs for {} fits on {}. {}", explored.swept.points.size(),
+                       explored.scene, device.name, lack_of(explored));
   const Point& p = explored.swept.points[*explored.answer.best];
   const auto bounds = bounds_of(explored);
   const Checked* checked = checked_at(explored, *explored.answer.best);

@@ -125,7 +125,7 @@ class Checkpoints(unittest.TestCase):
                 self.assertEqual(run("longer", "--resume", "longer", "--steps", more), wanted)
         self.refused("run", "--resume", "longer", "--steps", "3", names="--steps 3: error: step 4 of this run is done already")
         self.refused("run", "--resume", "longer", "--steps", "+4294967295", names="step numbers end at 4294967295")
-        self.refused("run", self.scene, "--steps", "+3", names="--steps +3: error: + goes on with a run of --resume")
+        self.refused("run", self.scene, "--steps", "+3", names="--steps +3: error: +N means steps further than the run of --resume has made")
         self.assertEqual(voxmelt("info", "longer/last.vxc", cwd=self.folder).returncode, 0)
         (self.folder / "longer/last.vxc").unlink()
         self.refused("run", "--resume", "longer", "--steps", "+3", names="the run is complete, and its last state is not there")

@@ -114,6 +114,10 @@ class Explore(unittest.TestCase):
         nothing, _, said = self.explore(self.scene, *tight, "--set", "device.dsp=0")
         self.assertIsNone(nothing["best"])
         self.assertIn("fits on ecp5-85f", said)
+        shown = list(csv.DictReader((self.folder / "out/explore.csv").read_text().splitlines()))
+        least = min(shown, key=lambda row: (float(row["fullest"]), int(row["lut"])))
+        self.assertIn(f'{least["lanes"]} lanes x {least["cascade"]} steps at', said)
+        self.assertIn(f'takes {least["dsp"]} DSP, where 0 are usable', said)
 
     def test_the_next_unit_buys_what_it_says(self):
         tight = ["--device", "ecp5-85f", "--memory", "none", "--points", 0]

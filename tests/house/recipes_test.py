@@ -28,6 +28,10 @@ def exists(root, path):
     return any(path != found.relative_to(root).as_posix() for found in root.glob(path.replace("<name>", "*")))
 
 
+def is_known(name, tests):
+    return any(test == name or test.startswith((f"{name}.", f"{name}_NOT_BUILT")) for test in tests)
+
+
 def offences(root, tests):
     page = (root / "CONTRIBUTING.md").read_text()
     found = []
@@ -42,20 +46,23 @@ def offences(root, tests):
         said = re.search(r"^Test: (.*(?:\n.+)*)", recipe, re.M)
         tested = re.findall(r"`([\w.]+)`", said[1]) if said else []
         found += [f"{title}: there is no test {name}" for name in tested
-                  if not any(test == name or test.startswith((f"{name}.", f"{name}_NOT_BUILT")) for test in tests)]
+                  if not is_known(name, tests)]
         if not paths or not tested:
             found.append(f"{title}: names no file, or no test")
     table = page.partition("\n## Recipes\n")[0]
     found += [f"the table: there is no test {name}" for name in re.findall(r"`(house\.\w+)`", table) if name not in tests]
+    rows = table.partition("| a change of | begins in | test |")[2]
+    named = [name for cell in re.findall(r"\| ([^|\n]*) \|$", rows, re.M) for name in re.findall(r"`([\w.]+)`", cell)]
+    found += [f"the table: there is no test {name}" for name in named if not is_known(name, tests)]
     return [f"CONTRIBUTING.md: {offence}" for offence in found]
 
 
 def self_test():
     recipe = "### A {}\n\n1. `app/<name>.cpp` (or\n   `app/main.cpp`): its `value`.\n\nTest: `app.commands` (begin\nhere), `unit_test`.\n\n"
-    fine = "| `house.docs` |\n\n## Recipes\n\nEach.\n\n" + "".join(recipe.format(name) for name in sorted(WANTED))
-    tests = {"app.commands", "house.docs", "unit_test.Suite.Case"}
+    fine = "| `house.docs` |\n\n| a change of | begins in | test |\n|---|---|---|\n| one | `app/main.cpp` | `lone_test` |\n\n## Recipes\n\nEach.\n\n" + "".join(recipe.format(name) for name in sorted(WANTED))
+    tests = {"app.commands", "house.docs", "lone_test.Case", "unit_test.Suite.Case"}
     planted = [("app/main.cpp", "app/gone.cpp"), ("app/<name>.cpp", "app/gone/<name>.cpp"), ("app/<name>.cpp", "app/<name>.toml"), ("app.commands", "app.gone"),
-               ("unit_test", "unit_gone"), ("house.docs", "house.gone"), ("### A look", "### A view"), ("Test:", "Tested:")]
+               ("unit_test", "unit_gone"), ("house.docs", "house.gone"), ("lone_test", "lone_gone"), ("### A look", "### A view"), ("Test:", "Tested:")]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         (root / "app").mkdir()
@@ -63,7 +70,7 @@ def self_test():
         page = root / "CONTRIBUTING.md"
         page.write_text(fine)
         assert offences(root, tests) == [], offences(root, tests)
-        assert offences(root, {"app.commands", "house.docs", "unit_test_NOT_BUILT-1"}) == []
+        assert offences(root, {"app.commands", "house.docs", "lone_test.Case", "unit_test_NOT_BUILT-1"}) == []
         for before, after in planted:
             page.write_text(fine.replace(before, after))
             assert offences(root, tests), f"missed: {before} -> {after}"
