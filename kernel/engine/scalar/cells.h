@@ -7,6 +7,7 @@
 
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/automaton/rule/neighbourhood.h"
+#include "kernel/automaton/rule/solid_bed.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/volume.h"
 
@@ -31,6 +32,12 @@ class Cells {
     return !outside(x, y, z) && v_.inert.test(x, y, z) && heat(x, y, z) > 0;
   }
   bool air(int x, int y, int z) const { return !blocked(x, y, z) && !v_.liquid.test(x, y, z); }
+
+  // Returns the bed offset of a blocked cell.
+  std::int32_t bed(int x, int y, int z, const rule::SolidBed& solid) const {
+    if (outside(x, y, z)) return rule::kBedHalf;
+    return v_.inert.test(x, y, z) ? amount(x, y, z) : solid.offset(amount(x, y, z), heat(x, y, z));
+  }
 
   state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }
   std::int32_t amount(int x, int y, int z) const { return v_.amount[at(x, y, z)]; }

@@ -39,12 +39,6 @@ Run gathered(const Cells& cells, state::Volume& volume, int x, int bottom, int z
   return run;
 }
 
-std::int32_t bed_under(const Run& run) {
-  const bool on_inert = run.bottom > 0 && run.volume.inert.test(run.x, run.bottom - 1, run.z);
-  return rule::bed_head(run.bottom,
-                        on_inert ? run.cells.amount(run.x, run.bottom - 1, run.z) : rule::kBedHalf);
-}
-
 bool keeps_order(const Run& run) {
   std::int64_t below = 0;
   for (std::int32_t k = 0; k < run.n - 1; ++k) {
@@ -103,7 +97,8 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
     ledger.heat.rounded -= run.content;
     const auto mean = static_cast<std::int32_t>(run.content / run.mass);
     const rule::Column column =
-        rule::run_column(run.mass, run.n, bed_under(run), mean, parameters_.flow, moment.substeps);
+        rule::run_column(run.mass, run.n, rule::bed_head(bottom, cells.bed(x, bottom - 1, z, solid_bed_)),
+                         mean, parameters_.flow, moment.substeps);
     std::int64_t held = 0;  // cells of the run that hold something
     for (std::int32_t k = 0; k < run.n; ++k) {
       const state::Slot i = run.at(k);

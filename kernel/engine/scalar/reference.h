@@ -44,6 +44,7 @@ class Reference final : public step::HostStepper {
   void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
 
   rule::Parameters parameters_;
+  rule::SolidBed solid_bed_;
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run

@@ -29,10 +29,9 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
   const auto column = [&](int x, int y, int z) {
     const state::Slot i = cells.at(x, y, z);
     if (in_run_[i]) return run_column(i);
-    if (y == 0) return rule::bed_column(rule::bed_head(0, rule::kBedHalf));
+    if (cells.blocked(x, y - 1, z))
+      return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_bed_)));
     const state::Slot below = cells.at(x, y - 1, z);
-    if (volume.solid.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, rule::kBedHalf));
-    if (volume.inert.test(x, y - 1, z)) return rule::bed_column(rule::bed_head(y, volume.amount[below]));
     if (in_run_[below]) return rule::top_column(run_column(below));
     return rule::air_column(y);
   };

@@ -16,7 +16,7 @@ namespace voxmelt::simd {
 struct alignas(64) EndedRuns {
   std::uint16_t excess_low[64], excess_high[64];  // mass - 4096 cells, signed 32-bit
   std::uint16_t first[64], last[64];              // heights of the first and the last cell
-  std::uint16_t bed[64];                          // amount of the bed
+  std::uint16_t bed[64];                          // see Beds
   std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
   std::uint64_t columns;         // columns that have a run here
   std::uint64_t ordered;         // columns whose run keeps its order
@@ -155,11 +155,11 @@ class RunData {
     const int stiffness = flow_.viscous.stiffness, yield = flow_.viscous.yield;
     alignas(64) Lanes32 mobility;
     for (int i = begin; i < end; ++i) {
-      const int head = 1024 + 512 * runs.first[i] + ((runs.bed[i] - 2048) >> 3) + (mass[i] >> 3) +
+      const int head = 1024 + 512 * runs.first[i] + ((runs.bed[i] - 4096) >> 3) + (mass[i] >> 3) +
                        (stiffness - 1) * (over[i] >> 3);
       now.head_low[i] = static_cast<std::uint16_t>(head & 0xFFFF);
       now.head_high[i] = static_cast<std::uint16_t>(head >> 16);
-      now.shown_bed[i] = static_cast<std::uint16_t>(16 * runs.first[i] + (runs.bed[i] >> 8) - 7);
+      now.shown_bed[i] = static_cast<std::uint16_t>(16 * runs.first[i] + (runs.bed[i] >> 8) - 15);
 
       // Here depth < 2^24. The float quotient of whole numbers is less than one off if it is below 131072.
       const int depth = mass[i] < 16 ? 1 : mass[i] >> 4, sum = 2 * yield + depth / 2;

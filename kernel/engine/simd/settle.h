@@ -36,6 +36,7 @@ class Settle {
       : v_(view),
         r_(runs),
         data_(step),
+        beds_(*step.parameters),
         mix_(step.dither),
         z_(z),
         records_(static_cast<EndedRuns*>(scratch)),
@@ -47,7 +48,7 @@ class Settle {
     TileRow columns = 0;
     for (int t = 0; t << v_.tile_shift < v_.ny; ++t) columns |= tiles[t];
     if (v_.words < 64) columns &= (TileRow{1} << v_.words) - 1;
-    const ShowOutside<Arch> outside(v_, z_, r_);
+    const ShowOutside<Arch> outside(v_, beds_, z_, r_);
     for (int base = 0; base < v_.words; base += kGroup) {
       const TileRow group = columns >> base & ((TileRow{1} << kGroup) - 1);
       if (group == 0) continue;
@@ -193,7 +194,7 @@ class Settle {
         orders_[g].begin(part, kept);
       }
       sums.first[part] = L::select(which, L::set(y), sums.first[part]);
-      sums.bed[part] = L::select(which, bed_below<Arch>(v_, w, y, z_, part), sums.bed[part]);
+      sums.bed[part] = L::select(which, beds_.below(v_, w, y, z_, part), sums.bed[part]);
     }
   }
   // Keeps the sums of ended runs. Runs of different columns share a record until one of its columns begins
@@ -341,6 +342,7 @@ class Settle {
   const View v_;
   const Runs r_;
   const RunData<Arch, kFeatures.hot> data_;
+  const Beds<Arch> beds_;
   Mix<Arch> mix_;
   const int z_;
   EndedRuns* const records_;    // [group][at most ny], stacks

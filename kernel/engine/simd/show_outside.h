@@ -6,18 +6,10 @@
 #include <cstdint>
 
 #include "kernel/engine/cpu/lanes.h"
+#include "kernel/engine/simd/beds.h"
 #include "kernel/engine/simd/kernels.h"
 
 namespace voxmelt::simd {
-
-// Returns the amount of the bed below row y.
-template <class Arch>
-VOXMELT_LANES typename cpu::Lanes<Arch>::V bed_below(const View& view, int w, int y, int z, int part) {
-  using L = cpu::Lanes<Arch>;
-  if (y == 0) return L::set(2048);
-  const auto below = L::load(view.amount + view.cell(w, y - 1, z) + part * L::kCount);
-  return L::select(L::from_bits(view.inert[view.word(w, y - 1, z)], part), below, L::set(2048));
-}
 
 template <class Arch>
 class ShowOutside {
@@ -26,7 +18,8 @@ class ShowOutside {
   using M = typename L::M;
 
  public:
-  [[gnu::always_inline]] ShowOutside(const View& view, int z, const Runs& runs) : v_(view), r_(runs), z_(z) {}
+  [[gnu::always_inline]] ShowOutside(const View& view, const Beds<Arch>& beds, int z, const Runs& runs)
+      : v_(view), beds_(beds), r_(runs), z_(z) {}
 
   // Shows the cells of row y. `group` has words from `base` on. It returns those that changed.
   [[gnu::always_inline]] TileRow row(TileRow group, int base, int y) const {
@@ -45,9 +38,9 @@ class ShowOutside {
         if (!L::in_part(work, part)) continue;
         const std::size_t at = v_.cell(w, y, z_) + static_cast<std::size_t>(part * L::kCount);
         const M which = L::from_bits(work, part), stands = L::from_bits(on_bed, part);
-        const V amount = bed_below<Arch>(v_, w, y, z_, part);
-        V head = L::keep(stands, L::set(768) + L::template shift_right<3>(amount));
-        V bed = L::keep(stands, L::set(16 * y - 7) + L::template shift_right<8>(amount));
+        const V below_row = beds_.below(v_, w, y, z_, part);
+        V head = L::keep(stands, L::set(512) + L::template shift_right<3>(below_row));
+        V bed = L::keep(stands, L::set(16 * y - 15) + L::template shift_right<8>(below_row));
         V mobility = L::zero(), fine = L::zero(), limit = L::zero();
         if (on_run != 0) {
           const M tops = L::from_bits(on_run, part);
@@ -81,6 +74,7 @@ class ShowOutside {
 
   static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
   const View& v_;
+  const Beds<Arch>& beds_;
   const Runs& r_;
   const int z_;
 };

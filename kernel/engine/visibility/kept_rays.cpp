@@ -87,7 +87,8 @@ std::int64_t KeptRays::irradiance(const state::Volume& volume, const rule::Heat&
     caster_->prepare(opaque_, news_);
     std::vector<Surface> surfaces;
     for (const Source& source : sources_) surfaces.emplace_back(volume.grid, source.kind, source.now);
-    workers_.run(static_cast<int>(bands_.size()), [&](int i) { update(bands_[i], surfaces, result); });
+    workers_.run(static_cast<int>(bands_.size()),
+                 [&](int i) { update(volume, bands_[i], surfaces, result); });
     written_ = result.data();
   }
   std::int64_t cuts = 0;
@@ -128,7 +129,7 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
   }
 }
 
-void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
+void KeptRays::update(const state::Volume& volume, Band& band, const std::vector<Surface>& surfaces,
                       state::Field<std::uint16_t>& result) const {
   if (rests(band)) {
     band.casts.cast = 0;
@@ -141,7 +142,7 @@ void KeptRays::update(Band& band, const std::vector<Surface>& surfaces,
     renew(band, sources_[s], surfaces[s], band.sources[s]);
     bytes += band.sources[s].bytes();
   }
-  band.cuts = write(band, result);
+  band.cuts = write(volume, band, result);
   const state::Grid& g = opaque_.grid();
   const std::size_t rows = band.y1 - band.y0, cells = rows * g.x;
   band.kept = bytes <= kMostKept * cells + (std::size_t{16} << 10);
@@ -159,18 +160,23 @@ void KeptRays::erase(const Band& band, state::Field<std::uint16_t>& result) cons
     }
 }
 
-std::int64_t KeptRays::write(const Band& band, state::Field<std::uint16_t>& result) const {
+std::int64_t KeptRays::write(const state::Volume& volume, const Band& band,
+                             state::Field<std::uint16_t>& result) const {
   std::int64_t cuts = 0;
+  std::vector<state::Slot> partly;  // lit cells that are not full
   for (const LitCells& own : band.sources)
     for (const Lit& lit : own.cells) {
       if (lit.value == 0) continue;
       const Cell cell = cell_at(band, lit);
-      std::uint16_t& sum = result.row(cell[1], cell[2])[cell[0]];
+      const state::Slot at = volume.at(cell[0], cell[1], cell[2]);
+      std::uint16_t& sum = result[at];
+      if (sum == 0 && volume.amount[at] != rule::kOne) partly.push_back(at);
       const std::uint32_t whole = sum + lit.value;
       constexpr std::uint32_t most = rule::kIrradianceMax;
       sum = static_cast<std::uint16_t>(std::min(whole, most));
       if (whole > most) ++cuts;
     }
+  for (const state::Slot at : partly) result[at] = rule::irradiance_of_amount(result[at], volume.amount[at]);
   return cuts;
 }
 

@@ -54,7 +54,8 @@ class KeptRays final : public Provider {
 
   void begin(const rule::Heat& heat);
   void move_sources(const rule::Heat& heat, std::uint32_t step);
-  void update(Band& band, const std::vector<Surface>& surfaces, state::Field<std::uint16_t>& result) const;
+  void update(const state::Volume& volume, Band& band, const std::vector<Surface>& surfaces,
+              state::Field<std::uint16_t>& result) const;
   void erase(const Band& band, state::Field<std::uint16_t>& result) const;
   void renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const;
   bool rests(const Band& band) const;
@@ -63,7 +64,8 @@ class KeptRays final : public Provider {
   class Batch;
   Casts cast(const Band& band, const Source& source, LitCells& own) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
-  std::int64_t write(const Band& band, state::Field<std::uint16_t>& result) const;
+  std::int64_t write(const state::Volume& volume, const Band& band,
+                     state::Field<std::uint16_t>& result) const;
   static Cell cell_at(const Band& band, const Lit& lit);
 
   std::unique_ptr<Caster> caster_;

@@ -22,7 +22,8 @@ class Provider {
  public:
   virtual ~Provider() = default;
 
-  // Fills one UQ12.4 irradiance per cell, 0 for every cell that is not a lit surface cell. `result` has the
+  // Fills one UQ12.4 irradiance per cell, 0 for every cell that is not a lit surface cell. A solid cell keeps
+  // its amount from one call to the next. `result` has the
   // size of the volume. A provider may find its own earlier result there, and write only changes. Between two
   // calls, nobody else changes a result that is given again. It returns how often a cell was cut at the
   // largest irradiance, once for each source.

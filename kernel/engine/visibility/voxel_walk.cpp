@@ -101,6 +101,13 @@ std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const ru
       }
     });
   }
+  workers_.run(g.z, [&](int z) {
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; ++x) {
+        const state::Slot at = volume.at(x, y, z);
+        if (result[at] > 0) result[at] = rule::irradiance_of_amount(result[at], volume.amount[at]);
+      }
+  });
   return cuts;
 }
 
