@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -72,7 +73,88 @@ struct Film {
   }
 };
 
+// A film lies on a plane of solid cells, the uppermost of each column partly full. Where it melts, a sun that
+// stands above takes a cell from each column in kSteps steps. The flux through the columns of the middle is
+// compared with Nusselt's at the mean depth of each moment.
+struct MeltingFilm {
+  static constexpr int kLength = 96, kWidth = 9, kMiddle = 20;
+  static constexpr std::uint32_t kSteps = 2000;
+  double slope, depth;
+  bool melts;
+
+  void fill(state::Volume& v) const {
+    for (int z = 0; z < kWidth; ++z)
+      for (int x = 0; x < kLength; ++x) {
+        const double height = 2 + slope * (kLength - 0.5 - x);
+        int y = 0;
+        for (; y + 0.25 <= height; ++y) {  // as a shape leaves them
+          put_solid(v, x, y, z, 0.5 * kHottest);
+          v.amount[v.at(x, y, z)] = to_units(kOne * std::min(1.0, height - y));
+        }
+        put_column(v, x, z, depth, y);
+      }
+    for_each_cell(v.grid, [&](int x, int y, int z) {
+      if (v.liquid.test(x, y, z)) v.heat[v.at(x, y, z)] = to_units(0.8 * kHottest);
+    });
+  }
+
+  // Returns liquid and solid of a column of the middle row. Solids hold what has not flown yet.
+  static double held(const state::Volume& v, int x, bool liquid_alone) {
+    double sum = 0;
+    for (int y = 0; y < v.grid.y; ++y)
+      if (v.liquid.test(x, y, kWidth / 2) || (!liquid_alone && v.solid.test(x, y, kWidth / 2)))
+        sum += v.amount[v.at(x, y, kWidth / 2)] / kOne;
+    return sum;
+  }
+
+  Row measure(const Conditions& conditions) const {
+    const double kappa = melts ? 0.02 : 0.1;
+    const int high = static_cast<int>(std::ceil(slope * kLength)) + 8;
+    Trial trial(conditions, "film",
+                {fmt::format("grid.size=[{},{},{}]", kLength, high, kWidth),
+                 fmt::format("flow.viscous.kappa={}", kappa),
+                 fmt::format("heat_source.0.power={}", melts ? 0.3 * kHottest / kSteps : 0)},
+                [&](state::Volume& v) { fill(v); });
+    const std::uint32_t lead = melts ? kSteps / 2 : 64, counted = melts ? kSteps : 256, sample = 16;
+    trial.run_to(lead);
+    const int first = (kLength - kMiddle) / 2;
+    const auto beyond = [&] {  // summed over the faces of the middle
+      double sum = 0;
+      for (int x = first; x < kLength; ++x)
+        sum += std::min(x - first + 1, kMiddle) * held(trial.volume(), x, false);
+      return sum;
+    };
+    const double before = beyond();
+    double exact = 0, depths = 0;
+    for (std::uint32_t step = 0; step < counted; step += sample) {
+      double mean = 0;
+      for (int x = first; x < first + kMiddle; ++x) mean += held(trial.volume(), x, true) / kMiddle;
+      depths += mean * sample / counted;
+      exact += sample * kappa / 3 * nusselt(slope) * mean * mean * mean;
+      trial.run_to(lead + step + sample);
+    }
+    return {.setting = fmt::format("slope {:g}, depth {:g} at first, {}", slope, depth,
+                                   melts ? "a cell melts in 2,000 steps" : "cold"),
+            .quantity = fmt::format("flux over Nusselt's, at depth {:.3f}", depths),
+            .value = (beyond() - before) / kMiddle / exact,
+            .exact = 1,
+            .gate = 0.05,
+            .speed = trial.speed()};
+  }
+};
+
 }  // namespace
+
+Outcome measure_melting_film(const Conditions& conditions) {
+  Outcome outcome;
+  for (const bool melts : {false, true})
+    for (const double slope : {0.1, 0.25, 0.5, 1.0})
+      for (const double depth : {0.5, 1.5}) {
+        if (conditions.quick && (melts || slope != 0.25)) continue;
+        outcome.rows.push_back(MeltingFilm{slope, depth, melts}.measure(conditions));
+      }
+  return outcome;
+}
 
 Outcome measure_nusselt(const Conditions& conditions) {
   Outcome outcome;

@@ -5,6 +5,7 @@
 namespace voxmelt::accuracy {
 
 Outcome measure_nusselt(const Conditions&);
+Outcome measure_melting_film(const Conditions&);
 Outcome measure_stairs(const Conditions&);
 Outcome measure_blob(const Conditions&);
 

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <random>
 
+#include "kernel/automaton/rule/solid_bed.h"
+
 namespace voxmelt::rule {
 namespace {
 
@@ -58,6 +60,7 @@ TEST(RunColumn, HeadIsTheFreeSurface) {
   EXPECT_EQ(run_column(8, 1, 0, 0, flow).head, 1);
   EXPECT_EQ(bed_head(2, kBedHalf + 2048), 2 * 512 + 256);
   EXPECT_EQ(bed_head(2, 0), 2 * 512 - 256);
+  EXPECT_EQ(bed_head(2, -2048), 512);
   // Under a ceiling, the one cell that is too much counts eight times in the head.
   EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow).head, 4 * 512 + 7 * 512);
   EXPECT_EQ(run_column(4 * kOne, 3, 0, 0, flow_of(1, 0, 1)).head, 4 * 512);
@@ -340,6 +343,33 @@ TEST(ViscousFlow, OnlyRunsGive) {
   EXPECT_EQ(top_column(run_at(700, 77)).mobility, 77 << 8);
   EXPECT_EQ(top_column(run_at(700, 77)).limit, 13107);
   EXPECT_EQ(air_column(3).head, 512);
+}
+
+// With latent heat 20000 the melting range has k = 1, w = 40000 and scale ceil(2^28 / 40000 = 6710.9) = 6711.
+// Without latent heat it is the last 4096 units: k = 3, w = 32768 and scale 8192.
+TEST(SolidBed, FollowsFromAmountAndHeat) {
+  Parameters p;
+  p.heat.enabled = true;
+  p.material = {.melting_point = 30000, .latent_heat = 20000};
+  const SolidBed bed(p);
+  EXPECT_EQ(bed.offset(4096, 0), 2048) << "flat";
+  EXPECT_EQ(bed.offset(4096, 30000), 2048) << "40000 x 6711 >> 16 = 4096";
+  EXPECT_EQ(bed.offset(4096, 40000), 0) << "half way: 20000 x 6711 >> 16 = 2048";
+  EXPECT_EQ(bed.offset(4096, 49999), -2048) << "2 x 6711 >> 16 = 0";
+  EXPECT_EQ(bed.offset(4096, 60000), -2048);
+  EXPECT_EQ(bed.offset(1024, 0), -1024);
+  EXPECT_EQ(bed.offset(1024, 40000), -1536);
+  EXPECT_EQ(bed.offset(65535, 0), 4095) << "cut at 6143";
+
+  p.material.latent_heat = 0;
+  EXPECT_EQ(SolidBed(p).offset(4096, 25904), 2048);
+  EXPECT_EQ(SolidBed(p).offset(4096, 28976), -1024) << "1024 units are left: a quarter";
+  EXPECT_EQ(SolidBed(p).offset(4096, 30000), -2048);
+  p.heat.enabled = false;
+  EXPECT_EQ(SolidBed(p).offset(4096, 0), 2048);
+  p.material = {.melting_point = 0, .latent_heat = 65535};
+  p.heat.enabled = true;
+  EXPECT_EQ(SolidBed(p).offset(4096, 0), 2048) << "w = 65535, scale 4097: 65535 x 4097 >> 16 = 4096";
 }
 
 }  // namespace

@@ -64,6 +64,28 @@ TEST(Contact, ADryBedHasItsOwnHeight) {
   }
 }
 
+// The same on a solid: its bed follows from its amount, and sinks while it melts. In the last case it has
+// taken up three quarters of its latent heat, and its bed lies 5/16 above its lower face.
+TEST(Contact, ASolidBedHasItsOwnHeight) {
+  struct Case {
+    std::int32_t amount, heat;
+    bool takes;
+  };
+  for (const Case& one :
+       {Case{5120, 0, false}, Case{4096, 0, true}, Case{5120, 29999, false}, Case{5120, 45000, true}}) {
+    Volume v(Grid{2, 3, 1});
+    put_inert(v, 0, 0, 0);
+    put_solid(v, 1, 0, 0, one.amount, one.heat);
+    put(v, 0, 1, 0, 1024, 0, 50000);
+    Parameters p = viscous(10);
+    p.heat.enabled = true;
+    p.material = {.melting_point = 30000, .latent_heat = 20000};
+    run::Simulation s = simulate(p, v);
+    steps(s, 20);
+    EXPECT_EQ(amount_at(s, 1, 1, 0) > 0, one.takes) << one.amount << ' ' << one.heat;
+  }
+}
+
 // Returns the step in which a film that touches one solid falls. The solid melts in step 0.
 int falls_in(rule::Law law, const rule::Fall& fall, int dx, int dy, int dz) {
   Volume v(Grid{5, 7, 5});

@@ -31,6 +31,11 @@ inline std::vector<std::uint16_t> received_by_the_page(const Volume& v, const st
       whole = static_cast<std::uint16_t>(std::min<std::uint64_t>(more, 65535));
     }
   }
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    std::uint16_t& whole = received[v.grid.index(x, y, z)];
+    if (whole > 0)
+      whole = static_cast<std::uint16_t>(std::min(65535, 4096 * whole / v.amount[v.at(x, y, z)]));
+  });
   return received;
 }
 

@@ -102,7 +102,8 @@ TEST(Irradiance, EqualsBruteForce) {
       if (!random.one_in(sparse)) return;
       if (random.one_in(4)) return put_inert(v, x, y, z);
       if (random.one_in(4)) return put(v, x, y, z, 4096);
-      put_solid(v, x, y, z);
+      put_solid(v, x, y, z,
+                random.any({4096, 4096, 1, random.between(1, 65535), random.between(1024, 5120)}));
     });
     std::vector<Position> sources;
     for (std::int32_t n = random.between(1, 3); n > 0; --n) {
@@ -122,6 +123,7 @@ TEST(Irradiance, EqualsBruteForce) {
         for (const Position s : sources)
           expected = std::min<std::uint64_t>(
               65535, expected + by_the_page(v, x, y, z, s, power, heat.rays_per_face));
+      if (expected > 0) expected = std::min<std::uint64_t>(65535, 4096 * expected / v.amount[v.at(x, y, z)]);
       ++(expected > 0 ? lit : dark);
       ASSERT_EQ(result[v.at(x, y, z)], expected) << x << ' ' << y << ' ' << z << ", trial " << trial;
     });
@@ -143,6 +145,23 @@ TEST(Irradiance, OfACubeSeenFromItsFaceEdgeAndCorner) {
   EXPECT_EQ(from({80, 72, 72}), 0) << "in the plane of a face";
   EXPECT_EQ(from({81, 72, 72}), 9000) << "just beyond it: as from one cell away, 9 / 16 of the cosine";
   EXPECT_EQ(from({72 + 160, 72, 72}), 160) << "outside the grid";
+}
+
+// A cell with a quarter of the matter warms four times as fast. The division comes after the sum over the
+// sources and its cut, and has a cut of its own.
+TEST(Irradiance, WarmsLessMatterFaster) {
+  const auto received = [](std::int32_t amount, std::size_t sources, std::uint64_t at_one_cell) {
+    Volume v(Grid{9, 9, 9});
+    put_solid(v, 4, 4, 4, amount);
+    const std::vector<Position> one_cell_away(sources, Position{72 + 16, 72, 72});
+    return irradiance(v, lit_by(one_cell_away, 256 * at_one_cell))[v.at(4, 4, 4)];
+  };
+  EXPECT_EQ(received(1024, 1, 16000), 64000);
+  EXPECT_EQ(received(3000, 2, 1000), 2730) << "floor(4096 x 2000 / 3000); twice 1365 is 2730, too";
+  EXPECT_EQ(received(3000, 2, 1001), 2733) << "floor(4096 x 2002 / 3000 = 2733.4); twice 1366 is 2732";
+  EXPECT_EQ(received(5120, 1, 16000), 12800);
+  EXPECT_EQ(received(1, 1, 16000), 65535);
+  EXPECT_EQ(received(8192, 6, 16000), 32767) << "half of 65535, at which the sum was cut";
 }
 
 // A cell is cut at 65535, and each source that is cut counts. 16000 times four is not cut, nor is exactly
