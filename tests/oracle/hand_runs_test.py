@@ -21,6 +21,8 @@ THERMAL = VISCOUS.replace(" } }\nheat", " }, thermal = { reference = 0.03125, do
 # The entry at heat 0 is 1: the mobility is 2^15 times as large at the reference.
 DEEP = 'flow = { law = "viscous", viscous = { kappa = 71, substeps = "auto" }, ' \
        'thermal = { reference = 1, doubling = 0.0667 } }\nheat = { gamma = 1e-9 }\n'
+# Tm = L = 20000. A whole solid lacks 20000 of heat; k = 1, w = 40000 and scale = 6711.
+MELTING = "material = { melting_point = 0.305181, latent_heat = 0.305181 }\n"
 AIR, HIGH, LOW, FLAT = ("air", 0, 0), ("inert", 3840, 0), ("inert", 240, 0), ("inert", 2048, 0)
 
 
@@ -28,8 +30,17 @@ def viscous(kappa, more=""):
     return VISCOUS.replace("0.05", f"{kappa}, {more}" if more else str(kappa))
 
 
+def sunlit(power):
+    """Under a sun straight above, of this power: each cell receives floor(power / 256) of parameters.json."""
+    return VISCOUS + f'heat_source = [{{ kind = "directional", direction = [0, 1, 0], power = {power} }}]\n'
+
+
 def liquid(amount, heat):
     return "liquid", amount, heat
+
+
+def solid(amount, heat):
+    return "solid", amount, heat
 
 
 def column(*cells, air=0):
@@ -189,6 +200,32 @@ CASES = [
      [(65535, 7)] * 103, (6180, 405006300, 0, 0)),
     # kappa 71: mobility_parameter is 67765039559, and raw 16 times that before the table. The limit is 201.
     ("the deepest and the stiffest", [1, 64, 1], [liquid(4096, 0)] * 64, DEEP, 0, [(4096, 0)] * 64, counted_when_deep),
+    # lack = 15000 and 10000: part = 2 x 15000 x 6711 >> 16 = 3072 and 2048, of 4000 and 3000: b + 2048 = 3000 and 1500.
+    # Beds 375 and 187: t = 11 - 5 = 6, drop = 188, drive = 12788 x 188 >> 10 = 2347. Both mobilities are 256 x 6553, so
+    # c = 3355136, and (3355136 x 2347 + 1024 D(1)) >> 26 = 117.
+    ("beds melt from above", [2, 2, 1], [solid(4000, 25000), solid(3000, 30000), liquid(4096, 7), liquid(4096, 7)],
+     MELTING + viscous(1), 0, [(4000, 25000), (3000, 30000), (3979, 7), (4213, 7)]),
+    # On the left b = 0, bed 256, and head 768. On the right part = 2048 of 5000, so b = 452, and the air shows head and bed
+    # 512 - 200 = 312: t = 9 - 8 = 1, drop = 456, drive = 16257 x 456 >> 10 = 7239. m is exposed alone, 2^21:
+    # (2^21 x 7239 + 1024 D(1)) >> 26 = 226.
+    ("air above a solid that melts", [2, 2, 1], [("inert", 0, 0), solid(5000, 30000), liquid(4096, 7), AIR],
+     MELTING + viscous(1), 0, [(5000, 30000), (3870, 7), (226, 7)]),
+    # L = 0: W = ONE, k = 3, w = 32768 and scale = 8192. Tm = 32768, lack = 1024 and 1: part = 1024 and 1, and beds 128 and
+    # 0. t = 4, drop = 128, drive = 14564 x 128 >> 10 = 1820, and (3355136 x 1820 + 1024 D(1)) >> 26 = 91.
+    ("without latent heat a solid melts over the last of its heat", [2, 2, 1],
+     [solid(4096, 31744), solid(4096, 32767), liquid(4096, 7), liquid(4096, 7)],
+     "material = { melting_point = 0.500008 }\n" + viscous(1), 0,
+     [(4096, 31744), (4096, 32767), (4005, 7), (4187, 7)]),
+    # All of it lacks, but 6143 counts: b = 4095, and the air shows 767. On the left the bed is 736 and the head 1248.
+    # t = 23 - 23 = 0: a = 4097 >> 1, c = 2^20, drive = 16 x 481 = 7696, and (2^20 x 7696 + 1024 D(1)) >> 26 = 120.
+    ("without heat a solid is whole", [2, 2, 1], [HIGH, solid(65535, 0), liquid(4096, 0), AIR],
+     viscous(1).split("heat =")[0], 0, [(65535, 0), (3976, 0), (120, 0)]),
+    # power / 256 is 0.0012 x 65535 x 16 = 1258. I = 1258, 4096 x 1258 / 1000 = 5152, / 10000 = 515, and 65535 in the last.
+    # The gains are I / 16, rounded down by D(0): 78, 322, 32 and 4095.
+    ("less matter warms faster in the light", [4, 1, 1], [solid(4096, 100), solid(1000, 100), solid(10000, 100), solid(1, 100)],
+     sunlit(0.0012), 0, [(4096, 178), (1000, 422), (10000, 132), (1, 4195)]),
+    # The sum is cut before it is divided: 4096 x 65535 / 20000 = 13421, and the gain is 838.
+    ("strong light is cut before the amount divides it", [1, 1, 1], [solid(20000, 100)], sunlit(1), 0, [(20000, 938)]),
 ]
 
 

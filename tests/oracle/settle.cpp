@@ -7,14 +7,29 @@
 namespace oracle {
 namespace {
 
+// Returns `part` of section 10 for a solid cell: how much of it its heat has left unmelted, in 1/ONE.
+Int unmelted_part(const Parameters& parameters, const Cell& cell) {
+  const Int melts = parameters.melting_point + parameters.latent_heat;
+  const Int W = larger(parameters.latent_heat, ONE);
+  Int power = 1;  // 2^k
+  while (W * power * 2 < 65536) power *= 2;
+  const Int w = W * power;
+  const Int lack = parameters.heat.enabled ? smaller(W, larger(0, melts - cell.heat)) : W;
+  const Int scale = ((Int{1} << 28) + w - 1) / w;
+  return (power * lack * scale) >> 16;
+}
+
+// Returns b of the cell (x, y, z), which is blocked or the border.
+Int bed_offset(const State& state, Int x, Int y, Int z) {
+  if (!state.inside(x, y, z)) return FLAT;
+  const Cell& cell = state.cells[state.index(x, y, z)];
+  if (cell.inert == 1) return cell.amount;
+  return ((smaller(cell.amount, 6143) * unmelted_part(state.parameters, cell)) >> 12) - 2048;
+}
+
 // Returns the height of the surface below the cell (x, y, z), in 1/512 cell.
 Int bed_of(const State& state, Int x, Int y, Int z) {
-  Int b = FLAT;
-  if (y > 0) {
-    const Cell& below = state.cells[state.index(x, y - 1, z)];
-    if (below.inert == 1) b = below.amount;
-  }
-  return 512 * y + ((b - FLAT) >> 3);
+  return 512 * y + ((bed_offset(state, x, y - 1, z) - FLAT) >> 3);
 }
 
 // Returns the number of cells of the run that starts at y0.

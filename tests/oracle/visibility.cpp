@@ -161,14 +161,18 @@ void find_irradiance(State& state) {
     lights.push_back({*source.kind, key_at(source, state.step)});
   for (Int& irradiance : state.irradiance) irradiance = 0;
   for (const Int i : state.list) {
-    if (state.cells[i].solid == 0) continue;
+    const Cell& cell = state.cells[i];
+    if (cell.solid == 0) continue;
     const Point centre = centre_of(state.place(i));
+    Int sum = 0;
     for (const Light& light : lights) {
       const Int N = seen(state, opaque, light, turns, i);
       if (N == 0) continue;
-      const Sum sum = state.irradiance[i] + light.kind.received(light.now, centre, N, R);
-      state.irradiance[i] = sum > 65535 ? 65535 : static_cast<Int>(sum);
+      const Sum more = sum + light.kind.received(light.now, centre, N, R);
+      sum = more > 65535 ? 65535 : static_cast<Int>(more);
     }
+    // The cell takes in all of it, so that less matter warms faster.
+    state.irradiance[i] = smaller(65535, ONE * sum / cell.amount);
   }
 }
 
