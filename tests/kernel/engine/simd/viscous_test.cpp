@@ -142,7 +142,7 @@ TEST(ViscousKernels, AreTheReferenceInDeepWater) {
         for (int y = 0; y < grid.y; ++y) {
           const bool lid = y == grid.y - 1 && closed;
           if (kind == 0 && y == 0) {
-            worlds::put_inert(start, x, y, z, random.below(65536));
+            worlds::put_inert(start, x, y, z, random.below(4096));
           } else if (kind == 1 && random.one_in(20)) {
             worlds::put_solid(start, x, y, z, 4096, p.heat.enabled ? 1 : 0);
           } else if (lid) {
