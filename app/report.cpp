@@ -122,13 +122,14 @@ bool says_complete(const std::filesystem::path& folder) {
   return report.is_object() && report.contains("complete") && report["complete"] == true;
 }
 
-std::string limit_text(const state::LimitCounts<state::Sum>& limit) {
+std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::ViscousLaw& law) {
   if (limit.limited_mass * 20 <= limit.mass) return {};
   const double share = static_cast<double>(limit.limited_mass) / static_cast<double>(limit.mass);
   return fmt::format(
-      "{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.substeps "
-      "mends that",
-      100 * share);
+      "{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.{} "
+      "mends that, and takes longer",
+      100 * share,
+      law.counts_substeps() ? fmt::format("substeps_max above {}", law.substeps_max) : "substeps = \"auto\"");
 }
 
 std::string drift_text(const state::Drift& drift) {

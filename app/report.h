@@ -26,7 +26,7 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
 bool says_complete(const std::filesystem::path& folder);
 
 // Says what the limit of the mobility withholds, if that is much. Otherwise the text is empty.
-std::string limit_text(const state::LimitCounts<state::Sum>& limit);
+std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::ViscousLaw& law);
 
 // Lists what does not balance, as in "mass +1, heat -3". The text is empty if all ledgers balance.
 std::string drift_text(const state::Drift& drift);

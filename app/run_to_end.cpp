@@ -177,7 +177,9 @@ class Run {
           place_);
     print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
     print("report         {}/report.json\n", place_);
-    if (const std::string limit = limit_text(simulation_.ledger().limit); !limit.empty())
+    if (const std::string limit =
+            limit_text(simulation_.ledger().limit, simulation_.parameters().flow.viscous);
+        !limit.empty())
       print("note           {}\n", limit);
   }
 

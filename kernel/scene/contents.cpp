@@ -31,10 +31,12 @@ rule::Temperature read_wall(Reader& reader, const rule::Material& material) {
   const rule::Temperature temperature = std::max<rule::Temperature>(1, to_temperature(asked));
   if (temperature <= material.melting_point) return temperature;
   const int heat = temperature + material.latent_heat;
-  if (heat > rule::kTemperatureMax)
+  const double latent = material.latent_heat / double{rule::kTemperatureMax};
+  // Both are rounded, each by half a unit at most.
+  if (heat > rule::kTemperatureMax + 1 || exceeds_range(asked + latent - 0.5 / rule::kTemperatureMax))
     reader.fail("temperature", fmt::format(" = {} exceeds {:.6g}: latent heat takes the rest of the range",
-                                           asked, 1 - material.latent_heat / double{rule::kTemperatureMax}));
-  return static_cast<rule::Temperature>(heat);
+                                           asked, 1 - latent));
+  return static_cast<rule::Temperature>(std::min(heat, rule::kTemperatureMax));
 }
 
 void read_floor(Reader& reader, Terrain& terrain, state::Grid grid) {

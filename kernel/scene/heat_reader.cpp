@@ -23,7 +23,7 @@ constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
 constexpr double kLargestRadius = 8192;
-constexpr double kLargestDirection = 1e6, kLeastDirection = 1e-6;
+constexpr double kLargestDirection = 1e6;
 constexpr std::uint32_t kLastStep = 0xFFFFFFFF;
 
 Range power() { return at_most(kLargestPower); }
@@ -74,7 +74,7 @@ rule::SourceKey read_source_key(Reader& reader, const rule::SourceKindRow& kind,
   if (kind.radius) key.radius = to_position(reader.number("radius", at_most(kLargestRadius)));
   if (kind.direction) {
     const std::array<double, 3> direction = reader.vector<3>("direction", within(kLargestDirection));
-    if (std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}) < kLeastDirection)
+    if (std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])}) == 0)
       reader.fail("direction", " has no length");
     key.direction = to_direction(direction);
   }

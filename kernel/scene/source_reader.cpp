@@ -37,10 +37,14 @@ rule::Material read_material(Reader& root) {
   rule::Material material;
   std::optional<Reader> reader = root.table("material");
   if (!reader) return material;
-  material.melting_point = to_temperature(reader->number("melting_point", above(0).at_most(1), 0.5));
-  material.latent_heat = to_temperature(reader->number("latent_heat", fraction(), 0.0));
-  if (material.melting_point + material.latent_heat > rule::kTemperatureMax)
+  const double melting_point = reader->number("melting_point", above(0).at_most(1), 0.5);
+  const double latent_heat = reader->number("latent_heat", fraction(), 0.0);
+  if (exceeds_range(melting_point + latent_heat))
     reader->fail("latent_heat", " and melting_point exceed 1 together: it could never melt");
+  material.melting_point = to_temperature(melting_point);
+  // Both are rounded apart, so that they might be one unit too high together.
+  const int most = rule::kTemperatureMax - material.melting_point;
+  material.latent_heat = static_cast<rule::Temperature>(std::min<int>(to_temperature(latent_heat), most));
   reader->finish();
   return material;
 }

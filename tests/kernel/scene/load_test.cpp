@@ -57,6 +57,27 @@ TEST(Load, WhatASceneDoesNotModelIsNotThere) {
   EXPECT_EQ(holds(heat + viscous), std::pair(false, true)) << "no energy under the viscous law";
 }
 
+// Numbers that are 1 together are rounded apart. 0.5 and 0.3 of 65535 lie on halves, or a decimal is off.
+TEST(Load, TheWholeRangeMayBeUsed) {
+  const SceneFolder folder;
+  const std::pair<const char*, const char*> pairs[] = {
+      {"0.5", "0.5"}, {"0.1", "0.9"}, {"0.3", "0.7"}, {"0.7", "0.3"}};
+  for (const auto& [point, latent] : pairs) {
+    const std::string material =
+        std::string("[material]\nmelting_point = ") + point + "\nlatent_heat = " + latent;
+    const rule::Material made = folder.load_text(kLeast + material + "\n").parameters.material;
+    EXPECT_EQ(made.melting_point + made.latent_heat, 65535) << point;
+  }
+  const std::string warm =
+      kLeast + "[heat]\ngamma = 0.1\n[material]\nmelting_point = 0.5\nlatent_heat = 0.3\n";
+  const Scene wall = folder.load_text(warm + "[[inert]]\nshape = \"floor\"\ntemperature = 0.7\n");
+  EXPECT_EQ(wall.initial.heat[wall.initial.at(0, 0, 0)], 65535);
+  const Scene sun = folder.load_text(
+      warm + "[[heat_source]]\nkind = \"directional\"\ndirection = [0, 2e-9, 1e-9]\npower = 1\n");
+  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.y, 65536);
+  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.z, 32768);
+}
+
 // The mobility wanted at the hottest entry, temperature 63/64, is 2^4.84375 = 28.7 times that at the
 // reference. The table holds it in units of 16 times. At kappa 71 nothing can be doubled, and it stops at 2.
 TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
