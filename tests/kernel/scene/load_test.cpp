@@ -74,8 +74,8 @@ TEST(Load, TheWholeRangeMayBeUsed) {
   EXPECT_EQ(wall.initial.heat[wall.initial.at(0, 0, 0)], 65535);
   const Scene sun = folder.load_text(
       warm + "[[heat_source]]\nkind = \"directional\"\ndirection = [0, 2e-9, 1e-9]\npower = 1\n");
-  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.y, 65536);
-  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.z, 32768);
+  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.y, 32768);
+  EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.z, 16384);
 }
 
 // The mobility wanted at the hottest entry, temperature 63/64, is 2^4.84375 = 28.7 times that at the
