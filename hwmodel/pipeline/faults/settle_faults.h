@@ -76,7 +76,8 @@ class SettleFaults : public Planted {
       for (int lane = 0; lane < stage.lanes(); ++lane) {
         Cell expected, found;
         const auto show = [&](ShowScan& scan, std::int64_t from, Cell& cell) {
-          scan.next(stage.upwards_.will_give(from)[lane], y, stage.flow_, stage.pace_, stage.widths_, cell);
+          scan.next(stage.upwards_.will_give(from)[lane], y, stage.flow_, stage.pace_, stage.widths_,
+                    stage.solids_, cell);
         };
         show(right[lane], y, expected);
         show(wrong[lane], stage.height_ - 1 - y, found);
