@@ -56,6 +56,7 @@ constexpr std::array kFaults{
               "the column memory is read in the wrong direction"},
     FaultInfo{settle_run_untold, "settle-run-untold", "settle", "a cell is not told that it is in a run"},
     FaultInfo{settle_head, "settle-head", "settle", "a run shows a head that is one unit too low"},
+    FaultInfo{settle_bed, "settle-bed", "settle", "a solid's bed is taken as flat"},
     FaultInfo{settle_mobility, "settle-mobility", "settle", "a run shows half its mobility"},
     FaultInfo{settle_limit, "settle-limit", "settle", "a run shows a limit that is one unit too low"},
     FaultInfo{settle_dead_zone, "settle-dead-zone", "settle", "a run shows a dead zone one unit too small"},

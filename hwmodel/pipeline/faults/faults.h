@@ -50,6 +50,7 @@ enum class Fault : std::uint8_t {
   settle_reversal,
   settle_run_untold,
   settle_head,
+  settle_bed,
   settle_mobility,
   settle_limit,
   settle_dead_zone,

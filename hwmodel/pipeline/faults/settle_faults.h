@@ -21,7 +21,9 @@ class SettleFaults : public Planted {
   using Faulty = Settle<SettleFaults>;
 
   SettleFaults(FaultPlan& plan, const Design& design)
-      : Planted(plan), column_(design.shape.lanes, design.shape.column()) {}
+      : Planted(plan),
+        column_(design.shape.lanes, design.shape.column()),
+        sinks_(static_cast<std::size_t>(design.shape.lanes)) {}
 
   void summed(Faulty& stage, const Cell* in) {
     if (!armed(stage, Fault::settle_run_broken)) return;
@@ -76,7 +78,8 @@ class SettleFaults : public Planted {
       for (int lane = 0; lane < stage.lanes(); ++lane) {
         Cell expected, found;
         const auto show = [&](ShowScan& scan, std::int64_t from, Cell& cell) {
-          scan.next(stage.upwards_.will_give(from)[lane], y, stage.flow_, stage.pace_, stage.widths_, cell);
+          scan.next(stage.upwards_.will_give(from)[lane], y, stage.flow_, stage.pace_, stage.widths_,
+                    stage.solids_, cell);
         };
         show(right[lane], y, expected);
         show(wrong[lane], stage.height_ - 1 - y, found);
@@ -88,11 +91,14 @@ class SettleFaults : public Planted {
 
   // Spoils what a cell of a run shows. Every change is seen behind the smaller of two limits.
   void shown(const Faulty& stage, int lane, Cell& cell) {
+    const std::int64_t sinks = note_bed(stage, lane, cell);
     if (cell.in_run == 0) return;
     if (armed(stage, Fault::settle_run_untold))
       cell.in_run = 0;
     else if (armed(stage, Fault::settle_head))
       cell.head = cell.head - 1;
+    else if (sinks != 0 && armed(stage, Fault::settle_bed))
+      cell.head = cell.head + sinks;
     else if (armed(stage, Fault::settle_mobility) && cell.mobility > 0)
       cell.mobility = cell.mobility >> 1;
     else if (armed(stage, Fault::settle_limit) && cell.limit > 1)
@@ -113,6 +119,15 @@ class SettleFaults : public Planted {
     std::vector<Held> cells;
     SettleWord record;  // in the word of the uppermost cell
   };
+
+  // Returns how far below a flat bed the bed lies upon which the cell stands, if that is a solid.
+  std::int64_t note_bed(const Faulty& stage, int lane, const Cell& cell) {
+    std::int64_t& sinks = sinks_[static_cast<std::size_t>(lane)];
+    if (stage.leaving().y == 0) sinks = 0;
+    if (cell.blocked())
+      sinks = cell.state == State::solid ? kFlatRise - stage.solids_.rise(cell.amount, cell.heat) : 0;
+    return sinks;
+  }
 
   // Compares what the next stage can tell apart. Mobilities are never used without a limit.
   static bool alike(Cell a, Cell b) {
@@ -171,7 +186,8 @@ class SettleFaults : public Planted {
     strike(stage, place.x + lane, place.y + above, place.z);
   }
 
-  TapLine<Cell> column_;  // the latest tokens
+  TapLine<Cell> column_;             // the latest tokens
+  std::vector<std::int64_t> sinks_;  // of each lane
 };
 
 }  // namespace voxmelt::hwmodel

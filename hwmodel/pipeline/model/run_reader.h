@@ -1,8 +1,9 @@
 // A run shows the same for all of its cells, so the memories of viscous spread store it once per run. It is
 // read back as the column passes a tap, bottom first. The head lies in the word of the run's first cell. The
-// rest lies in the word of the blocked cell below it (which holds no arrivals and has room for it). For a run
-// on the grid's floor, the rest lies in a word per column beside the planes. The column also tells what a
-// cell outside a run shows (docs/automaton.md, end of section 10).
+// rest lies in the word of the blocked cell below it (which holds no arrivals and has room for it). So does
+// the rise of the bed, if that cell is solid: it is computed once, when the cell comes. For a run on the
+// grid's floor, the rest lies in a word per column beside the planes. The column also tells what a cell
+// outside a run shows (docs/automaton.md, end of section 10).
 #pragma once
 
 #include <algorithm>
@@ -35,15 +36,18 @@ struct SpreadWord {
   UInt<16> present;  // amount after the pairs done so far
   UInt<32> content;  // amount x heat after them
   SInt<30> head;     // head of the run, in its first cell
-  // This belongs to a blocked cell.
-  RunPace above;  // pace of the run that begins in the next cell up
+  // The following belong to a blocked cell.
+  RunPace above;                     // pace of the run that begins in the next cell up
+  UInt<SolidBed::kRiseBits> melted;  // rise of a solid's bed; an inert cell's follows from its amount
 
   bool blocked() const { return ground == Ground::solid || ground == Ground::inert; }
   bool runs() const { return ground == Ground::run; }
+  // Returns the rise of the bed that a blocked cell is.
+  UInt<14> rise() const { return ground == Ground::solid ? UInt<14>(melted) : rise_of_inert(amount); }
 
   // Returns the bits of a word. The two kinds share them.
   static int bits(int head_bits, bool hot, bool walls) {
-    const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits;
+    const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits + SolidBed::kRiseBits;
     const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits;
     return std::max(blocked, open);
   }
@@ -72,7 +76,7 @@ class RunReader {
   void bring(const RunPace& pace) { next_ = pace; }
   void bring_floor(const RunPace& pace) {
     below_ = Below::blocked;
-    bed_ = kFlatBed;
+    rise_ = kFlatRise;
     next_ = pace;
   }
 
@@ -81,7 +85,7 @@ class RunReader {
     const SpreadWord& word = *seen.word;
     if (word.blocked()) {
       below_ = Below::blocked;
-      bed_ = word.ground == Ground::inert ? std::int64_t{word.amount} : kFlatBed;
+      rise_ = word.rise();
       next_ = word.above;
       return;
     }
@@ -89,7 +93,7 @@ class RunReader {
       if (below_ == Below::blocked) {
         head_ = word.head;
         pace_ = next_;
-        run_bed_ = bed_head(y, bed_) >> 5;
+        run_bed_ = bed_head(y, rise_) >> 5;
       }
       below_ = Below::run;
       seen.head = head_;
@@ -101,7 +105,7 @@ class RunReader {
     seen.head = 512 * (y - 2);
     seen.bed = kNoBed;
     if (below_ == Below::blocked) {
-      seen.head = bed_head(y, bed_);
+      seen.head = bed_head(y, rise_);
       seen.bed = seen.head >> 5;
     }
     if (below_ == Below::run) {
@@ -117,7 +121,7 @@ class RunReader {
   enum class Below : std::uint8_t { blocked, run, outside };
 
   Below below_ = Below::blocked;
-  UInt<16> bed_ = kFlatBed;  // bed offset of the blocked cell below
+  UInt<14> rise_ = kFlatRise;  // of the bed, the blocked cell below
   SInt<30> head_;
   SInt<18> run_bed_;
   RunPace pace_, next_;

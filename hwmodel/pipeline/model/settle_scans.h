@@ -160,14 +160,15 @@ class RecordScan {
 class ShowScan {
  public:
   void next(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace, const RunWidths& widths,
-            Cell& cell) {
-    if (y == 0) bed_ = kFlatBed;
+            const SolidBed& solids, Cell& cell) {
+    if (y == 0) rise_ = kFlatRise;
     cell = {};
     if (word.blocked()) {
       cell.state = word.kind == SettleKind::solid ? State::solid : State::inert;
       cell.amount = std::int64_t{word.sum};
       cell.heat = word.heat;
-      bed_ = word.kind == SettleKind::inert ? std::int64_t{word.sum} : kFlatBed;
+      rise_ = cell.state == State::solid ? std::int64_t{solids.rise(cell.amount, cell.heat)}
+                                         : std::int64_t{rise_of_inert(cell.amount)};
       return;
     }
     cell.amount = 0;
@@ -189,7 +190,7 @@ class ShowScan {
   void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
               const RunWidths& widths, Cell& cell) {
     if (word.kind == SettleKind::first) {
-      show_ = shown(word.sum, word.last, bed_head(y, bed_), word.mobility, flow, pace, widths);
+      show_ = shown(word.sum, word.last, bed_head(y, rise_), word.mobility, flow, pace, widths);
       level_ = word.sum;
       // The product with kOverMax = 61439 takes two shifts and two subtractions.
       spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);
@@ -201,7 +202,7 @@ class ShowScan {
     spare_ = std::min(spare_ + kOverMax, kOverMax);
   }
 
-  UInt<16> bed_ = kFlatBed;  // bed offset of the blocked cell below
+  UInt<14> rise_ = kFlatRise;  // of the bed, the blocked cell below
   RunShow show_;
   UInt<28> level_;  // the run's amount, less ONE for each cell below
   SInt<30> spare_;  // the amount beyond ONE per cell, less what the cells above can hold

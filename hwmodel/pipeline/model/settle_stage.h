@@ -22,6 +22,7 @@ class Settle final : public Stage {
         hot_(design.hot()),
         flow_(design.parameters.flow),
         widths_(design),
+        solids_(design),
         height_(design.shape.column()),
         sums_(size()),
         records_(size()),
@@ -43,11 +44,11 @@ class Settle final : public Stage {
 
   // Multipliers serve depth squared, the mobility in two parts, and its table. With heat, two serve the
   // mixture (amount x heat and rounding), and two the way up (flow x heat and rounding). Three serve the way
-  // down (amount x heat, flow x heat and rounding). Dividers serve the limit, the dead zone and, with heat,
-  // the mixture. Each is used once per run, at most every second cycle. With heat there is one more on each
-  // way, used every cycle.
+  // down (amount x heat, flow x heat and rounding), and two the bed of a solid. Dividers serve the limit, the
+  // dead zone and, with heat, the mixture. Each is used once per run, at most every second cycle. With heat
+  // there is one more on each way, used every cycle.
   Units units() const override {
-    return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
+    return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 + 2 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
   }
 
  protected:
@@ -88,7 +89,7 @@ class Settle final : public Stage {
     if (out == nullptr) return;
     for (const int each : each_lane(lag())) {
       const std::size_t lane = each;
-      shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, out[lane]);
+      shows_[lane].next(turned_[lane], leaving().y, flow_, pace_, widths_, solids_, out[lane]);
       faults_.shown(*this, each, out[lane]);
     }
   }
@@ -110,6 +111,7 @@ class Settle final : public Stage {
   bool hot_;
   const rule::Flow& flow_;
   RunWidths widths_;
+  SolidBed solids_;
   std::int64_t height_;
   OfTwoPasses<UInt<16>> dithers_;
   OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step; the host divides

@@ -9,11 +9,51 @@
 
 namespace voxmelt::hwmodel {
 
-// Returns the head of a bed below height y, in 1/512 cell. `amount` is that of an inert cell there, else
-// kFlatBed.
-inline std::int64_t bed_head(std::int64_t y, std::int64_t amount) {
-  return 512 * y + ((amount - kFlatBed) >> 3);
-}
+// A bed's rise is its height above the lower face of the blocked cell, in 1/512 cell: (b + 2048) >> 3, with
+// the bed offset b of the cell. So it is never negative, and the lowest three bits of b are not needed.
+inline constexpr std::int64_t kFlatRise = (kFlatBed + 2048) >> 3;
+
+inline UInt<14> rise_of_inert(std::int64_t amount) { return (amount + 2048) >> 3; }
+
+// Computes the rise of solid cells. A solid is filled from below, and melted from above as far as its heat
+// says. The host computes the constants of a scene. With heat this takes two products.
+class SolidBed {
+ public:
+  static constexpr int kRiseBits = 10;
+
+  explicit SolidBed(const Design& design)
+      : hot_(design.hot()),
+        melts_at_(design.parameters.material.melting_point + design.parameters.material.latent_heat),
+        range_(std::max<std::int64_t>(design.parameters.material.latent_heat, kOne)) {
+    int shift = 0;
+    while (range_ << (shift + 1) < 65536) ++shift;
+    shift_ = shift;
+    const std::int64_t whole = range_ << shift;
+    scale_ = ((std::int64_t{1} << 28) + whole - 1) / whole;
+  }
+
+  UInt<kRiseBits> rise(std::int64_t amount, std::int64_t heat) const {
+    UInt<13> part = kOne;  // the part that is not melted
+    if (hot_) {
+      const UInt<16> lack = std::clamp<std::int64_t>(melts_at_ - heat, 0, range_);
+      const UInt<16> shifted = lack << shift_;
+      part = UInt<29>(shifted * scale_) >> 16;
+    }
+    const UInt<13> filled = std::min<std::int64_t>(amount, kMostFilled);
+    return UInt<26>(filled * part) >> 15;
+  }
+
+ private:
+  static constexpr std::int64_t kMostFilled = 4095 + 2048;  // no bed offset is beyond 4095
+
+  bool hot_;
+  UInt<16> melts_at_, range_;  // least heat of the melt; how much heat it takes to melt
+  UInt<2> shift_;              // brings the range to 32768 and above
+  UInt<14> scale_;
+};
+
+// Returns the head of a bed below height y, in 1/512 cell.
+inline std::int64_t bed_head(std::int64_t y, std::int64_t rise) { return 512 * (y - 1) + rise; }
 
 inline constexpr std::int64_t kOverMax = kAmountMax - kOne;  // most that a cell holds beyond ONE
 
@@ -27,7 +67,7 @@ struct RunWidths {
     const std::int64_t height = design.shape.grid.y, stiffness = design.parameters.flow.viscous.stiffness;
     count = bits_for(height - 1);
     sum = bits_for(kAmountMax * height);
-    const std::int64_t highest_bed = bed_head(height - 1, kAmountMax);
+    const std::int64_t highest_bed = bed_head(height - 1, rise_of_inert(kAmountMax));
     head =
         1 + bits_for(highest_bed + (kAmountMax * height >> 3) + (stiffness - 1) * (kOverMax * height >> 3));
   }

@@ -25,6 +25,7 @@ class ViscousSpread final : public Stage {
         hot_(design.hot()),
         walls_(design.needs_walls()),
         head_bits_(RunWidths(design).head),
+        solids_(design),
         line_(lanes(), lag()),
         floor_(lanes(), design.shape.blocks() + 1),
         now_(lanes()),
@@ -46,8 +47,9 @@ class ViscousSpread final : public Stage {
   }
 
   // A pair multiplies (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive,
-  // and with heat f h. With heat, a cell multiplies A h and the mixture's rounding.
-  Units units() const override { return {13 + (hot_ ? 4 + 2 : 0), hot_ ? 1 : 0, 0}; }
+  // and with heat f h. With heat, a cell multiplies A h and the mixture's rounding, and two multipliers serve
+  // the bed of a solid.
+  Units units() const override { return {13 + (hot_ ? 4 + 2 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
   void begin_step() override {
@@ -116,6 +118,7 @@ class ViscousSpread final : public Stage {
     if (hot_) word.heat = cell.heat;
     if (cell.blocked()) {
       word.ground = cell.state == State::solid ? Ground::solid : Ground::inert;
+      if (cell.state == State::solid) word.melted = solids_.rise(cell.amount, cell.heat);
       return;
     }
     word.ground = cell.in_run ? Ground::run : Ground::outside;
@@ -261,6 +264,7 @@ class ViscousSpread final : public Stage {
   [[no_unique_address]] Faults faults_;
   bool hot_, walls_;
   int head_bits_;
+  SolidBed solids_;
   OfTwoPasses<UInt<16>> dithers_;
   UInt<16> dither_;                                    // dither of the cells that are finished
   Reciprocal substep_{1};                              // divides a step by its number of sub-steps

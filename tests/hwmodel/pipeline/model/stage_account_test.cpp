@@ -141,7 +141,9 @@ TEST(StageAccount, AFeedIsBypassedOrDrains) {
 }
 
 // The numbers are counted by hand from docs/automaton.md. Settle of cold liquid multiplies for a depth
-// squared and for the two parts of a mobility. It divides for the limit and the dead zone.
+// squared and for the two parts of a mobility. It divides for the limit and the dead zone. With heat it
+// multiplies twice for the mixture of a run, twice on the way up, three times on the way down, and twice for
+// the bed of a solid, and divides for each mixture.
 TEST(StageAccount, UnitsOfSettle) {
   Design design{{}, {{4, 4, 4}, 1}};
   design.parameters.flow.law = rule::Law::viscous;
@@ -150,6 +152,22 @@ TEST(StageAccount, UnitsOfSettle) {
   EXPECT_EQ(units().dividers, 2);
   design.parameters.flow.thermal_viscosity = true;  // the table is interpolated between two temperatures
   EXPECT_EQ(units().multipliers, 4);
+  design.parameters.heat.enabled = true;
+  EXPECT_EQ(units().multipliers, 4 + 2 + 2 + 3 + 2);
+  EXPECT_EQ(units().dividers, 2 + 3);
+}
+
+// With heat each of four pairs has a product more, a cell two, and the bed of a solid two. One divider serves
+// the mixture.
+TEST(StageAccount, UnitsOfHeatInViscousSpread) {
+  Design design{{}, {{4, 4, 4}, 1}};
+  design.parameters.flow.law = rule::Law::viscous;
+  const auto units = [&] { return make_stage(StageKind::viscous_spread, design)->units(); };
+  const Units cold = units();
+  EXPECT_EQ(cold.dividers, 0);
+  design.parameters.heat.enabled = true;
+  EXPECT_EQ(units().multipliers, cold.multipliers + 4 + 2 + 2);
+  EXPECT_EQ(units().dividers, 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/pipeline/model/viscous_run.h"
 #include "kernel/automaton/rule/viscous.h"
 #include "tests/hwmodel/pipeline/model/viscous_worlds.h"
 
@@ -230,6 +231,105 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
   }
   EXPECT_GT(runs, 500);
   EXPECT_GT(walls, 500);
+}
+
+// A solid melts at 30000 and takes up `latent`.
+Design bed_design(const state::Grid& grid, std::uint16_t latent, bool hot = true) {
+  Design design{{}, {grid, 1}};
+  rule::Parameters& parameters = design.parameters;
+  parameters.flow.law = rule::Law::viscous;
+  parameters.flow.viscous.mobility = (std::uint64_t{1} << 36) - 1;
+  parameters.heat.enabled = hot;
+  parameters.material.melting_point = 30000;
+  parameters.material.latent_heat = latent;
+  return design;
+}
+
+// With latent heat 8192, W = 8192, k = 2, w = 32768, scale = 2^28 / 32768 = 8192. A rise is (b + 2048) >> 3.
+TEST(SolidBed, ByHand) {
+  const Design design = bed_design({1, 1, 1}, 8192);
+  const SolidBed bed(design);
+  // Cold: lack = W, part = (4 x 8192 x 8192) >> 16 = 4096. So b + 2048 is 1024 and 4096, and 6143 at most.
+  EXPECT_EQ(bed.rise(1024, 20000), 128);
+  EXPECT_EQ(bed.rise(4096, 30000), 512);
+  EXPECT_EQ(bed.rise(65535, 0), 767);
+  // Half way: h = 38192 - 4096, lack = 4096, part = 2048. b + 2048 = 512, and floor(6143 / 2) = 3071.
+  EXPECT_EQ(bed.rise(1024, 34096), 64);
+  EXPECT_EQ(bed.rise(6144, 34096), 383);
+  // Melted: lack = 1, part = (4 x 1 x 8192) >> 16 = 0; and nothing lacks.
+  EXPECT_EQ(bed.rise(65535, 38191), 0);
+  EXPECT_EQ(bed.rise(65535, 65535), 0);
+  EXPECT_EQ(SolidBed(bed_design({1, 1, 1}, 8192, false)).rise(1024, 65535), 128) << "without heat";
+}
+
+// The melt has 35000 units. W = 5000, k = 3 (80000 is too much), w = 40000. The scale is 6710.9, rounded up
+// to 6711. At lack = 5000, part = (40000 x 6711) >> 16 = 4096.07. At 2500 it is 2048.03, at 2499 it is
+// 2047.2.
+TEST(SolidBed, OfAWholeThatIsNoPowerOfTwo) {
+  const SolidBed bed(bed_design({1, 1, 1}, 5000));
+  EXPECT_EQ(bed.rise(4096, 30000), 512);
+  EXPECT_EQ(bed.rise(4096, 32500), 256);
+  EXPECT_EQ(bed.rise(4096, 32501), 255);
+}
+
+// At all latent heats no wire is too narrow, a cold solid is filled by its amount, and a bed never rises as
+// it warms. Less latent heat than ONE counts as ONE.
+TEST(SolidBed, FitsItsWires) {
+  for (int latent = 0; latent <= 35535; latent += latent < 5000 ? 1 : 61) {
+    const SolidBed bed(bed_design({1, 1, 1}, static_cast<std::uint16_t>(latent)));
+    const int melt = 30000 + latent, range = std::max(latent, 4096);
+    std::int64_t last = 767;
+    for (int heat = 0; heat <= 65535; heat += 257) {
+      const std::int64_t rise = bed.rise(65535, heat);
+      ASSERT_LE(rise, last);
+      last = rise;
+    }
+    ASSERT_EQ(bed.rise(1024, melt - range), 128) << latent;
+    ASSERT_EQ(bed.rise(65535, melt), 0) << latent;
+  }
+}
+
+// Liquid of 2048 stands on four blocked cells, so each head is its bed and 2048 >> 3 = 256. The beds: solids
+// of SolidBed.ByHand with 128, 64 and 512, and an inert cell with 512 + ((1024 - 2048) >> 3) = 384.
+TEST(ViscousStages, SettleStandsOnSolidBeds) {
+  const Design design = bed_design({4, 2, 1}, 8192);
+  state::Volume start(design.shape.grid);
+  worlds::put_solid(start, 0, 0, 0, 1024, 20000);
+  worlds::put_solid(start, 1, 0, 0, 1024, 34096);
+  worlds::put_solid(start, 2, 0, 0, 4096, 20000);
+  worlds::put_inert(start, 3, 0, 0, 1024);
+  for (int x = 0; x < 4; ++x) worlds::put(start, x, 1, 0, 2048, 0, 40000);
+  Stages stages;
+  make_excess(design, make_stage, stages);
+  auto tap = std::make_unique<Tap>(design);
+  const Tap& seen = *tap;
+  stages.push_back(std::move(tap));
+  StageRun run;
+  run_stages(design, stages, step::Moment(0), nullptr, start, run);
+  EXPECT_EQ(seen.at(0, 1, 0).head, 384);
+  EXPECT_EQ(seen.at(1, 1, 0).head, 320);
+  EXPECT_EQ(seen.at(2, 1, 0).head, 768);
+  EXPECT_EQ(seen.at(3, 1, 0).head, 640);
+}
+
+// Liquid of 2048 on a full solid flows to the air above a solid of 1024, by one axis. The beds are 512 and
+// 128, so the slope is t = 16 - 4 = 12: (2^22 + 272) / 544 = 7710. The drop of 768 - 128 = 640 is cut to 512,
+// drive = 7710 x 512 >> 10 = 3855. exposed = 2^21, a = 2048, c = 2^20. The layer y = 1 has the dither 32768.
+// The flow is (2^20 x 3855 + 32768 x 2^10) >> 26 = floor(60.23 + 0.5) = 60, less than a fifth of 2048. On two
+// flat beds it would be 32.
+TEST(ViscousStages, SpreadFlowsDownToASolidBed) {
+  const Design design = bed_design({2, 2, 1}, 8192);
+  state::Volume start(design.shape.grid);
+  worlds::put_solid(start, 0, 0, 0, 4096, 20000);
+  worlds::put_solid(start, 1, 0, 0, 1024, 20000);
+  worlds::put(start, 0, 1, 0, 2048, 0, 40000);
+  Stages stages;
+  make_both(design, make_stage, stages);
+  StageRun run;
+  const state::Volume found = run_stages(design, stages, step::Moment(0), nullptr, start, run);
+  EXPECT_EQ(found.amount[found.at(0, 1, 0)], 1988);
+  EXPECT_EQ(found.amount[found.at(1, 1, 0)], 60);
+  EXPECT_EQ(found.amount[found.at(1, 0, 0)], 1024);
 }
 
 }  // namespace
