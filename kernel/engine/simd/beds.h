@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/kernels.h"
