@@ -112,7 +112,7 @@ struct MeltingFilm {
     const int high = static_cast<int>(std::ceil(slope * kLength)) + 8;
     Trial trial(conditions, "film",
                 {fmt::format("grid.size=[{},{},{}]", kLength, high, kWidth),
-                 fmt::format("flow.viscous.kappa={}", kappa), "flow.viscous.substeps_max=8",
+                 fmt::format("flow.viscous.kappa={}", kappa), "flow.viscous.substeps=1",
                  fmt::format("heat_source.0.power={}", melts ? 0.3 * kHottest / kSteps : 0)},
                 [&](state::Volume& v) { fill(v); });
     const std::uint32_t lead = melts ? kSteps / 2 : 64, counted = melts ? kSteps : 256, sample = 16;
