@@ -79,7 +79,7 @@ TEST(Machine, StatesAndPicturesAreThoseOfTheSoftware) {
 }
 
 TEST(Machine, CyclesAndBytesSumUp) {
-  const Melt melt("bunny_small", 300);
+  const Melt melt("bunny_small", 200);
   MachineOptions options = small_machine();
   options.picture.configuration.bus_bytes = 96;
   const MachineReport report = melt.verify(options);
@@ -127,7 +127,7 @@ TEST(Machine, CyclesAndBytesSumUp) {
 // The same picture is drawn alone and beside the pipeline. On a wide bus the neighbour costs next to nothing.
 // On a narrow one both wait.
 TEST(Machine, BothWaitForANarrowBus) {
-  const Melt melt("bunny_small", 300);
+  const Melt melt("bunny_small", 200);
   for (const bool narrow : {false, true}) {
     MachineOptions options = small_machine();
     options.picture.configuration.bus_bytes = narrow ? 60 : 4096;
@@ -148,7 +148,7 @@ TEST(Machine, BothWaitForANarrowBus) {
 }
 
 TEST(Machine, BothAreClientsOfOneDram) {
-  const Melt melt("bunny_small", 300);
+  const Melt melt("bunny_small", 200);
   MachineOptions options = small_machine();
   options.picture.configuration.dram = load_memory("ddr4-2400", "");
   const MachineReport report = melt.verify(options);
@@ -164,7 +164,7 @@ TEST(Machine, BothAreClientsOfOneDram) {
 
 // A wrong pixel, or a wrong cell, ends the run.
 TEST(Machine, ADifferenceEndsTheRun) {
-  const Melt melt("bunny_small", 300);
+  const Melt melt("bunny_small", 200);
   MachineOptions options = small_machine();
   options.picture.fault = raycast::Fault::pixel_byte;
   const MachineReport report = melt.verify(options);

@@ -29,7 +29,7 @@
 namespace voxmelt::hwmodel::raycast {
 namespace {
 
-constexpr std::uint32_t kSmall = 300;  // the step at which bunny_small melts everywhere
+constexpr std::uint32_t kSmall = 200;  // the step at which bunny_small melts everywhere
 
 // Steps a scene and draws pictures of it, which are told of its changes.
 class Melt {

@@ -322,7 +322,7 @@ TEST(Sleep, GroundThatMeltsIsShownNoMore) {
     run::Simulation reference = simulate(p, start);
     int melted = 0;
     for (; reference.volume().solid.count() > 0 && melted < 30; ++melted) {
-      if (reference.volume().heat[start.at(first, 7, 0)] <= 30000 - 4096) {  // its bed sinks from then on
+      if (reference.volume().heat[start.at(first + 3, 7, 0)] <= 30000 - 4096) {  // its bed sinks from then on
         ASSERT_EQ(amount_at(reference, first + 3, 8, 1), 1024) << "rests while the slab is there";
       }
       reference.step();
