@@ -287,6 +287,8 @@ TEST_F(BadMesh, APartitionInside) {
   expect(mesh, box_body({4, 4, 4}, {20, 10, 10}), {"m.obj: 4 edges of more than two faces"});
 }
 
+// The edges of the box are 4 (16 + 12 + 18) = 184 cells long, those of the flat shell 4 x 12 + 2 x 16.97
+// = 81.9. So 81.9 / 265.9 = 31 % of all edges vanish.
 TEST_F(BadMesh, EmptyShell) {
   MeshText mesh;
   mesh.box({6, 6, 6}, {16, 12, 18});
