@@ -33,7 +33,7 @@ rule::Temperature read_wall(Reader& reader, const rule::Material& material) {
   const int heat = temperature + material.latent_heat;
   const double latent = material.latent_heat / double{rule::kTemperatureMax};
   // Both are rounded, each by half a unit at most.
-  if (heat > rule::kTemperatureMax + 1 || exceeds_range(asked + latent - 0.5 / rule::kTemperatureMax))
+  if (heat > rule::kTemperatureMax + 1 || exceeds_range(asked + latent))
     reader.fail("temperature", fmt::format(" = {} exceeds {:.6g}: latent heat takes the rest of the range",
                                            asked, 1 - latent));
   return static_cast<rule::Temperature>(std::min(heat, rule::kTemperatureMax));

@@ -28,9 +28,11 @@ VOXMELT_RULE std::uint64_t square_root(std::uint64_t a) {
   return root;
 }
 
-// Returns the irradiance of a cell that takes in all of `sum`, but has only this amount of matter to warm.
+// Returns the irradiance of a cell that takes in all of `sum`, but has only this amount of matter to warm. A
+// solid has some; a volume edited by hand may break that, and nothing divides by 0.
 VOXMELT_RULE std::uint16_t irradiance_of_amount(std::uint32_t sum, std::uint32_t amount) {
-  return static_cast<std::uint16_t>(std::min<std::uint32_t>(kIrradianceMax, kOne * sum / amount));
+  return static_cast<std::uint16_t>(
+      std::min<std::uint32_t>(kIrradianceMax, kOne * sum / std::max(amount, 1u)));
 }
 
 // Returns the irradiance that the faces of a cell receive from a source: power x sum / |delta|^3. The sum

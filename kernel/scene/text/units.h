@@ -21,8 +21,8 @@ inline Range fraction() { return at_most(1); }  // for a temperature range, an a
 inline rule::Temperature to_temperature(double t) {
   return static_cast<rule::Temperature>(std::lround(t * rule::kTemperatureMax));
 }
-// Tells if a sum of temperatures exceeds the range, beyond what their decimals are off.
-inline bool exceeds_range(double t) { return t > 1 + 1e-9; }
+// Tells if a sum of temperatures exceeds the range by half a unit, which its decimals do not.
+inline bool exceeds_range(double t) { return t > 1 + 0.5 / rule::kTemperatureMax; }
 inline rule::Amount to_amount(double a) { return static_cast<rule::Amount>(std::lround(a * rule::kOne)); }
 
 // Converts factors 0..1 to 1/65536. 1 itself is one unit less if 16 bits must hold it.
