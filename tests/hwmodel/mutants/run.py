@@ -5,7 +5,7 @@
     tests/hwmodel/mutants/run.py                 builds and runs each; goes on where it stopped
     tests/hwmodel/mutants/run.py --only gravity  those whose name holds this expression
 
-It wants a standing build: `cmake --build --preset release --target voxmelt` and the test programs of hwmodel.
+It wants a standing build: `cmake --build --preset release --target voxmelt-hardware` and the test programs of hwmodel.
 With --together most mutants lie in one program, and an environment variable chooses (together.py). Any other
 is an overlay of the one file that it changes. What includes that file is compiled by the commands of
 compile_commands.json, and linked before the libraries of the standing build.
@@ -38,7 +38,7 @@ KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", 
 # the ray caster has mutants of its own elsewhere.
 FOLDERS = tuple(f"hwmodel/{folder}/" for folder in ("fabric", "memory", "pipeline/model", "pipeline/time", "pipeline/check", "pipeline/report", "machine",
                                                      "explore"))
-VERIFY = "app/voxmelt"
+VERIFY = "app/voxmelt-hardware"
 BITS = ("wrong bits", "equivalent")
 LONGEST = 150  # seconds of one run
 
