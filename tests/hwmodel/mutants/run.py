@@ -36,7 +36,7 @@ ROOT = HERE.parents[2]
 KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
 # What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
 # the ray caster has mutants of its own elsewhere.
-FOLDERS = tuple(f"hwmodel/{folder}/" for folder in ("fabric", "memory", "pipeline/model", "pipeline/time", "pipeline/check", "pipeline/report", "machine",
+FOLDERS = tuple(f"hwmodel/{folder}/" for folder in ("check", "fabric", "memory", "pipeline/model", "pipeline/time", "pipeline/check", "pipeline/report", "machine",
                                                      "explore"))
 VERIFY = "app/voxmelt-hardware"
 BITS = ("wrong bits", "equivalent")
