@@ -108,9 +108,8 @@ Cases slopes() {
       {"nusselt", "Slopes", "A film on a plane carries Nusselt's flux",
        "Kappa 0.1. The flux through the middle of the plane is counted over 256 steps.", measure_nusselt},
       {"melting_film", "Slopes", "The same on a solid that melts",
-       "The solid's surface lies where its amount and its heat say. Kappa 0.1 where it is cold, and 0.02 "
-       "where "
-       "it melts under a sun.",
+       "The solid's surface lies where its amount and its heat say. "
+       "Kappa 0.1 where it is cold, and 0.02 where it melts under a sun.",
        measure_melting_film},
       {"stairs", "Slopes", "The same on steps of whole cells",
        "A bed that cannot be told from stairs holds liquid back. Reported.", measure_stairs},

@@ -55,7 +55,8 @@ class DeviceStepper : public Stepper {
   // heat.visibility_every.
   virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
 
-  // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more.
+  // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more: it reads
+  // amounts of solid cells, too, but those never change.
   virtual void download_masks(state::Volume& volume) = 0;
 
   // Copies the whole state and the books, with every term booked until now. It writes the fields of the
