@@ -94,13 +94,23 @@ void Simulation::begin_step() {
     uploaded_ = true;
   }
   substep_ = 0;
+  if (parameters_.heat.is_visibility_step(step_number())) find_irradiance();
   volume_.changed.begin();
   if (host_ != nullptr) substeps_ = count_substeps();  // a device counts its own
-  const rule::Heat& heat = parameters_.heat;
-  if (!heat.is_visibility_step(step_number())) return;
+}
+
+// Masks that a device has sent without the rest of its state count as changed everywhere.
+void Simulation::find_irradiance() {
   const Stopwatch watch(seconds_.visibility);
-  if (behind_) device_->download_masks(volume_);
-  irradiance_capped_ += provider_->irradiance(volume_, heat, step_number(), irradiance_);
+  if (behind_) {
+    volume_.changed.begin();
+    device_->download_masks(volume_);
+  } else {
+    tell_changes();
+  }
+  irradiance_capped_ += provider_->irradiance(volume_, parameters_.heat, step_number(), irradiance_);
+  const state::ChangedRows* const changed = provider_->changed();
+  if (host_ != nullptr && changed != nullptr) host_->tell_irradiance(*changed);
 }
 
 int Simulation::count_substeps() const {

@@ -85,6 +85,7 @@ class Simulation {
  private:
   void make_irradiance();
   void make_stepper();
+  void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
   int count_substeps() const;
   void fetch() const {

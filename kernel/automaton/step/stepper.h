@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/automaton/step/phase.h"
@@ -42,6 +43,10 @@ class HostStepper : public Stepper {
   // the books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
+
+  // Tells which irradiance is new in the step that begins. A step of visibility may go without this call.
+  // Then all of it may be new.
+  virtual void tell_irradiance(const state::ChangedRows& /*changed*/) {}
 };
 
 class DeviceStepper : public Stepper {

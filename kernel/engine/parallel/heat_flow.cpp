@@ -20,6 +20,9 @@ HeatFlow::HeatFlow(state::Grid grid, const simd::View& view, int chunks)
       restless_(stale_),
       moved_(stale_),
       for_melt_(stale_),
+      light_(stale_),
+      tile_shift_(view.tile_shift),
+      all_(all_words(view)),
       chunk_(chunks_.count()),
       cut_(chunks_.cuts()) {
   const state::Grid slice{grid.x, grid.y, 1};
@@ -41,8 +44,14 @@ void HeatFlow::note(const Tiles& changed) {
   for_melt_.add(changed);
 }
 
-void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books) {
-  wake(job, new_irradiance);
+void HeatFlow::note_light(const state::ChangedRows& changed) {
+  for (const state::ChangedRow& row : changed) light_.edit(row.z)[row.y >> tile_shift_] |= row.words;
+}
+
+void HeatFlow::note_light() { light_.fill(all_); }
+
+void HeatFlow::heat(const Job& job, Tiles& changed, simd::Books& books) {
+  wake(job);
   const bool later = job.kernels.conduct_edges || job.kernels.conduct_corners || job.kernels.convect;
   if (job.kernels.conduct_faces) {
     with_walls(job, job.kernels.face_walls, [&] { conduct_faces(job); });
@@ -60,7 +69,10 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
     convect(job);
     end_pass(job, false);
   }
-  // Each cell acts alone here. If nothing else has changed, only a restless tile may change.
+  // Each cell acts alone here. If nothing else has changed, only a restless tile may change, or one with new
+  // irradiance.
+  awake_.add(light_);
+  light_.clear();
   if (job.kernels.exchange) {
     sweep(job, [&](int z, Worker& worker, const Neighbours&) { exchange(job, z, worker); });
     end_pass(job, false);
@@ -69,17 +81,16 @@ void HeatFlow::heat(const Job& job, bool new_irradiance, Tiles& changed, simd::B
   close(books);
 }
 
-void HeatFlow::wake(const Job& job, bool new_irradiance) {
+void HeatFlow::wake(const Job& job) {
   std::swap(taken_, stale_);
   job.workers.run(chunks_.count(), [&](int chunk) {
-    const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       awake_.clear(z);
-      if (!job.sleep || new_irradiance)
-        std::fill_n(awake_.edit(z), awake_.rows(), all);
+      if (!job.sleep)
+        std::fill_n(awake_.edit(z), awake_.rows(), all_);
       else if (taken_.any_near(z) || restless_.any(z))
         for (int r = 0; r < job.view.tile_rows(); ++r)
-          awake_.edit(z)[r] = taken_.near(z, r, all) | restless_.slice(z)[r];
+          awake_.edit(z)[r] = taken_.near(z, r, all_) | restless_.slice(z)[r];
       stale_.clear(z);
       restless_.clear(z);
       moved_.clear(z);
@@ -90,10 +101,9 @@ void HeatFlow::wake(const Job& job, bool new_irradiance) {
 // Notes the changes of a pass. Their neighbours are awake for the passes that follow.
 void HeatFlow::end_pass(const Job& job, bool wake_neighbours) {
   job.workers.run(chunks_.count(), [&](int chunk) {
-    const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
       if (wake_neighbours && moved_.any_near(z))
-        for (int r = 0; r < job.view.tile_rows(); ++r) awake_.edit(z)[r] |= moved_.near(z, r, all);
+        for (int r = 0; r < job.view.tile_rows(); ++r) awake_.edit(z)[r] |= moved_.near(z, r, all_);
       stale_.add(z, moved_.slice(z));
     }
   });
@@ -222,9 +232,8 @@ void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
 void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
   job.workers.run(chunks_.count(), melt_turns_, [&](int chunk) {
     Worker& worker = chunk_[chunk];
-    const TileRow all = all_words(job.view);
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
-      if (!job.sleep) std::fill_n(for_melt_.edit(z), for_melt_.rows(), all);
+      if (!job.sleep) std::fill_n(for_melt_.edit(z), for_melt_.rows(), all_);
       if (!for_melt_.any(z)) continue;
       std::fill(worker.moved.begin(), worker.moved.end(), TileRow{0});
       job.kernels.melt(job.view, job.step, z, for_melt_.slice(z), worker.moved.data(), worker.books);

@@ -2,14 +2,15 @@
 //
 // A tile is awake for heat if it, or a tile beside it, has changed since its last heat (its heat, its
 // amounts, its masks). It is also awake if another dither might move heat. Each pass wakes the neighbours of
-// what it changes. A tile is awake for melt if it has changed since its last melt. Bodies of one temperature
-// sleep.
+// what it changes. New irradiance wakes a tile for radiation alone, in which each cell acts alone. A tile is
+// awake for melt if it has changed since its last melt. Bodies of one temperature sleep.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/field.h"
 #include "kernel/engine/parallel/chunks.h"
 #include "kernel/engine/parallel/job.h"
@@ -20,10 +21,12 @@ class HeatFlow {
  public:
   HeatFlow(state::Grid grid, const simd::View& view, int chunks);
 
-  void note(const Tiles& changed);  // changes of other phases
+  void note(const Tiles& changed);                     // changes of other phases
+  void note_light(const state::ChangedRows& changed);  // new irradiance
+  void note_light();                                   // new irradiance, anywhere
 
   // Both functions add to `changed` the tiles that they change.
-  void heat(const Job& job, bool new_irradiance, Tiles& changed, simd::Books& books);
+  void heat(const Job& job, Tiles& changed, simd::Books& books);
   void melt(const Job& job, Tiles& changed, simd::Books& books);
 
  private:
@@ -40,7 +43,7 @@ class HeatFlow {
     bool first;                          // the slice is the first of its chunk
   };
 
-  void wake(const Job& job, bool new_irradiance);
+  void wake(const Job& job);
   void save_cuts(const Job& job);
   void end_pass(const Job& job, bool wake_neighbours);
   void close(simd::Books& books);
@@ -58,6 +61,9 @@ class HeatFlow {
   Chunks chunks_;
   cpu::Turns sweep_turns_, melt_turns_;
   Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
+  Tiles light_;  // with new irradiance
+  int tile_shift_;
+  TileRow all_;  // all tiles of a row
   std::vector<Worker> chunk_, cut_;
   Slice wall_gains_;            // for the whole grid; empty if a scene has no isothermal walls
   state::BitPlane wall_cells_;  // cells that touch a wall

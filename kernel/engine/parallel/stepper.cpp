@@ -79,7 +79,12 @@ simd::View Stepper::view_of(state::Volume& volume) {
   return view;
 }
 
-// Vents and drains report their changes, and each step of visibility wakes all.
+void Stepper::tell_irradiance(const state::ChangedRows& changed) {
+  if (heat_) heat_->note_light(changed);
+  knows_light_ = true;
+}
+
+// Vents and drains report their changes, and new irradiance is told.
 void Stepper::change_sources(const rule::Parameters& parameters) {
   parameters_ = parameters;
   kernels_ = simd::kernels(set_, parameters);  // others are needed if radiation is new
@@ -148,7 +153,9 @@ void Stepper::source(const Job& job, simd::Books& books) {
 void Stepper::heat(const Job& job, simd::Books& books) {
   if (!heat_) return;
   changed_.clear();
-  heat_->heat(job, parameters_.heat.is_visibility_step(job.step.number), changed_, books);
+  if (parameters_.heat.is_visibility_step(job.step.number) && !knows_light_) heat_->note_light();
+  knows_light_ = false;
+  heat_->heat(job, changed_, books);
   untold_heat_.add(changed_);
   // The flow of the paper's law reads heat only when it mixes, unless its shares depend on it.
   if (parameters_.flow.thermal_viscosity) dirty_.add(changed_);

@@ -22,6 +22,7 @@ class Stepper final : public step::HostStepper {
 
   void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
+  void tell_irradiance(const state::ChangedRows& changed) override;
   void change_sources(const rule::Parameters& parameters) override;
   void tell_changes(state::ChangedBricks& changed) override;
 
@@ -45,6 +46,7 @@ class Stepper final : public step::HostStepper {
   int rows_;                            // rows of the grid
   std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, if gravity asks for them
   std::optional<HeatFlow> heat_;
+  bool knows_light_ = false;  // the new irradiance of this step has been told
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
   Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory

@@ -3,6 +3,9 @@
 // opaque cell appears (a volume edited by hand), or a source moves, every ray is cast anew. A sky always
 // stands still. So the irradiance is the same as if all rays were cast each time, and depends on no memory.
 //
+// While all sources are steady, only cells about a change of the masks are looked at, and only cells with a
+// new fate or face are written. The fates alone are gone through in every call that finds news.
+//
 // Beside Opaque, it keeps 12 bytes for each cell with a face that looks, and 4 for each of its rays. A band
 // of rows keeps at most kMostKept bytes for each of its cells and 16 KiB. Beyond that it keeps nothing.
 #pragma once
@@ -22,6 +25,8 @@
 
 namespace voxmelt::visibility {
 
+struct Renewal;
+
 class KeptRays final : public Provider {
  public:
   static constexpr std::size_t kMostKept = 4;
@@ -31,6 +36,7 @@ class KeptRays final : public Provider {
 
   std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                           state::Field<std::uint16_t>& result) override;
+  const state::ChangedRows* changed() const override { return tells_ ? &changed_ : nullptr; }
   std::string_view name() const override { return caster_->name(); }
   Casts casts() const override { return casts_; }
   std::size_t kept_bytes() const;  // beside Opaque
@@ -44,6 +50,7 @@ class KeptRays final : public Provider {
     bool kept = true;  // if not, its cells of the sources took too much memory
     std::int64_t cuts = 0;
     Casts casts;
+    state::ChangedRows changed;  // rows that were written
   };
   struct Source {
     rule::SourceKind kind = rule::SourceKind::point;
@@ -56,17 +63,17 @@ class KeptRays final : public Provider {
   void move_sources(const rule::Heat& heat, std::uint32_t step);
   void update(const state::Volume& volume, Band& band, const std::vector<Surface>& surfaces,
               state::Field<std::uint16_t>& result) const;
-  void erase(const Band& band, state::Field<std::uint16_t>& result) const;
-  void renew(Band& band, const Source& source, const Surface& surface, LitCells& own) const;
-  bool rests(const Band& band) const;
+  void renew(Band& band, std::size_t source, const Surface& surface, Renewal& found) const;
+  bool has_new_faces(const Band& band) const;
   std::uint64_t rows_of(const Band& band, int w, bool changed) const;
-  LitCells find(const Band& band, const Surface& surface, const LitCells& old, bool still) const;
-  class Batch;
-  Casts cast(const Band& band, const Source& source, LitCells& own) const;
+  void find(const Band& band, const Surface& surface, bool still, LitCells& own, Renewal& found) const;
+  void cast(Band& band, std::size_t source, Renewal& found) const;
   std::uint32_t value(const Band& band, const Source& source, const Lit& lit, const Fate* fates) const;
-  std::int64_t write(const state::Volume& volume, const Band& band,
-                     state::Field<std::uint16_t>& result) const;
-  static Cell cell_at(const Band& band, const Lit& lit);
+  void erase(Band& band, state::Field<std::uint16_t>& result) const;
+  void write(const state::Volume& volume, Band& band, const std::vector<std::uint32_t>& places,
+             state::Field<std::uint16_t>& result) const;
+  void limit(Band& band) const;
+  static Cell cell_at(const Band& band, std::uint32_t place);
 
   std::unique_ptr<Caster> caster_;
   cpu::Workers workers_;
@@ -78,6 +85,8 @@ class KeptRays final : public Provider {
   std::vector<Band> bands_;
   const void* written_ = nullptr;  // address of the last result
   bool steady_ = false;            // the same result is given again, and all sources are steady
+  bool tells_ = false;             // changed_ has all that the last call changed
+  state::ChangedRows changed_;
   Casts casts_;
 };
 

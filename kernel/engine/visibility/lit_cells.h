@@ -28,30 +28,29 @@ struct LitCells {
   std::size_t bytes() const { return cells.size() * sizeof(Lit) + fates.size() * sizeof(Fate); }
 };
 
-// Makes a list from an older one. Its calls go by ascending places.
+// Makes a list from an older one. Its calls go by ascending places. The places that look no more are added to
+// `dropped`.
 class RenewedLitCells {
  public:
-  RenewedLitCells(const LitCells& old, int rays_per_face) : old_(old), each_(rays_per_face) {
+  RenewedLitCells(const LitCells& old, int rays_per_face, std::vector<std::uint32_t>& dropped)
+      : old_(old), each_(rays_per_face), dropped_(dropped) {
     now_.cells.reserve(old.cells.size() + kMore);
     now_.fates.reserve(old.fates.size() + kMore);
   }
 
-  void keep_before(std::uint32_t place) {
-    while (more() && next().place < place) pass();
-  }
-  void drop_before(std::uint32_t place) {
-    if (!more() || next().place >= place) return;
-    copy();
-    while (more() && next().place < place) pass();
-    begin();
-  }
-
-  // Adds a cell with these faces. There is none between it and the last one. Known fates of a face are kept.
+  // Looks at a cell. It has these faces now, and all cells between it and the last one are as before. Known
+  // fates of a face are kept.
   void look(std::uint32_t place, std::uint8_t faces) {
-    drop_before(place);
+    while (more() && next().place < place) pass();
     const bool was = more() && next().place == place;
     if (was && next().faces == faces) return pass();
+    if (!was && faces == 0) return;
     copy();
+    if (faces == 0) {
+      dropped_.push_back(place);
+      pass();
+      return begin();
+    }
     now_.cells.push_back({place, kStale, faces, static_cast<std::uint8_t>(each_ * std::popcount(faces))});
     std::size_t from = fate_;
     for (int f = 0; f < rule::kFaces; ++f) {
@@ -63,7 +62,9 @@ class RenewedLitCells {
     begin();
   }
 
+  // Returns the list. All other cells are as before.
   LitCells take() {
+    while (more()) pass();
     copy();
     return std::move(now_);
   }
@@ -92,6 +93,7 @@ class RenewedLitCells {
 
   const LitCells& old_;
   int each_;
+  std::vector<std::uint32_t>& dropped_;
   LitCells now_;
   std::size_t cell_ = 0, fate_ = 0;              // next of the old ones
   std::size_t first_cell_ = 0, first_fate_ = 0;  // first one that is not copied yet

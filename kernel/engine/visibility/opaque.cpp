@@ -1,6 +1,7 @@
 #include "kernel/engine/visibility/opaque.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "kernel/automaton/state/changed_bricks.h"
 
@@ -9,12 +10,12 @@ namespace {
 
 constexpr int kSide = state::kBrickSide;
 constexpr int kWordBricks = 64 / kSide;
-constexpr std::size_t kTogether = 16;  // words that are compared at once
 
 }  // namespace
 
 void Opaque::resize(const state::Grid& grid) {
   grid_ = grid;
+  seen_ = {};
   bricks_ = state::brick_grid(grid);
   plane_ = state::BitPlane(grid);
   solid_ = state::BitPlane(grid);
@@ -22,6 +23,7 @@ void Opaque::resize(const state::Grid& grid) {
   contents_.assign(bricks_.cells(), kEmpty);
   column_words_ = state::words_for(grid.y);
   changed_.assign(column_words_ * grid.z, 0);
+  changed_cells_ = state::BitPlane(grid);
 }
 
 Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
@@ -32,6 +34,7 @@ Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
   }
   std::vector<News> news(bricks_.z);
   workers.run(bricks_.z, [&](int layer) { news[layer] = take_layer(volume, layer); });
+  seen_ = volume.changed.now();
   for (const News& more : news) {
     all.appeared |= more.appeared;
     all.vanished |= more.vanished;
@@ -43,39 +46,58 @@ Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
 
 Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
   News news;
-  const std::size_t words = plane_.row_words(), slice = words * grid_.y;
-  for (int z = kSide * layer; z < std::min(grid_.z, kSide * (layer + 1)); ++z) {
-    std::fill_n(changed_.begin() + change_word(0, z), column_words_, 0);
-    const std::uint64_t *const now_solid = volume.solid.row(0, z).data(), *const now_inert =
-                                                                              volume.inert.row(0, z).data();
-    std::uint64_t *const solid = solid_.row(0, z).data(), *const opaque = plane_.row(0, z).data();
-    const auto differs = [&](std::size_t w) {
-      return ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
-    };
-    for (std::size_t first = 0; first < slice; first += kTogether) {
-      const std::size_t end = std::min(slice, first + kTogether);
-      std::uint64_t any = 0;  // most words have not changed
-      if (end - first == kTogether)
-        for (std::size_t i = 0; i < kTogether; ++i) any |= differs(first + i);
-      else
-        any = 1;
-      for (std::size_t w = first; any != 0 && w < end; ++w) {
-        const std::uint64_t was = opaque[w], is = now_solid[w] | now_inert[w];
-        const std::uint64_t turned = solid[w] ^ now_solid[w];
-        if (((was ^ is) | turned) == 0) continue;
-        const int y = static_cast<int>(w / words);
-        changed_[change_word(y, z)] |= std::uint64_t{1} << (y & 63);
-        news.appeared |= (is & ~was) != 0;
-        news.vanished |= (was & ~is) != 0;
-        news.turned |= turned != 0;
-        solid[w] = now_solid[w];
-        opaque[w] = is;
-        write_bricks(was, is, w % words, y, z);
-      }
-    }
-  }
+  const int first = kSide * layer, end = std::min(grid_.z, first + kSide);
+  for (int z = first; z < end; ++z) forget_changes(z);
+  for (int y = 0; y < bricks_.y; ++y)
+    if (may_differ(volume, y, layer))
+      for (int z = first; z < end; ++z)
+        take_rows(volume, kSide * y, std::min(grid_.y, kSide * (y + 1)), z, news);
   if (news.appeared || news.vanished) news.emptied = look_into(layer);
   return news;
+}
+
+// Tells if the volume may have changed in some brick at y and z.
+bool Opaque::may_differ(const state::Volume& volume, int y, int z) const {
+  const state::ChangedBricks& changed = volume.changed;
+  if (changed.all_since(seen_)) return true;
+  const std::size_t first = bricks_.index(0, y, z), end = first + bricks_.x;
+  for (std::size_t brick = first; brick < end; ++brick)
+    if (changed.since(state::ChangedBricks::kMatter, seen_, brick)) return true;
+  return false;
+}
+
+// Takes over the rows from y = `begin` to before `end` of slice z.
+void Opaque::take_rows(const state::Volume& volume, int begin, int end, int z, News& news) {
+  const std::size_t words = plane_.row_words(), count = words * (end - begin);
+  const std::uint64_t *const now_solid = volume.solid.row(begin, z).data(), *const now_inert =
+                                                                                volume.inert.row(begin, z)
+                                                                                    .data();
+  std::uint64_t *const solid = solid_.row(begin, z).data(), *const opaque = plane_.row(begin, z).data();
+  const auto differs = [&](std::size_t w) {
+    return ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
+  };
+  std::uint64_t any = 0;  // most rows have not changed
+  for (std::size_t w = 0; w < count; ++w) any |= differs(w);
+  for (std::size_t w = 0; any != 0 && w < count; ++w) {
+    const std::uint64_t was = opaque[w], is = now_solid[w] | now_inert[w];
+    const std::uint64_t turned = solid[w] ^ now_solid[w];
+    if (((was ^ is) | turned) == 0) continue;
+    const int y = begin + static_cast<int>(w / words);
+    changed_[change_word(y, z)] |= std::uint64_t{1} << (y & 63);
+    changed_cells_.row(y, z)[w % words] = (was ^ is) | turned;
+    news.appeared |= (is & ~was) != 0;
+    news.vanished |= (was & ~is) != 0;
+    news.turned |= turned != 0;
+    solid[w] = now_solid[w];
+    opaque[w] = is;
+    write_bricks(was, is, w % words, y, z);
+  }
+}
+
+void Opaque::forget_changes(int z) {
+  for (std::size_t w = 0; w < column_words_; ++w)
+    for (std::uint64_t& rows = changed_[z * column_words_ + w]; rows != 0; rows &= rows - 1)
+      std::ranges::fill(changed_cells_.row(static_cast<int>(64 * w) + std::countr_zero(rows), z), 0);
 }
 
 void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z) {
@@ -129,6 +151,18 @@ std::uint64_t Opaque::changed_about(std::size_t w, int z) const {
   if (w + 1 < column_words_) about |= slice[w + 1] << 63;
   if (z > 0) about |= changed_[change_word(0, z - 1) + w];
   if (z + 1 < grid_.z) about |= changed_[change_word(0, z + 1) + w];
+  return about;
+}
+
+std::uint64_t Opaque::cells_about(std::size_t w, int y, int z) const {
+  const auto row = changed_cells_.row(y, z);
+  std::uint64_t about = row[w] | row[w] << 1 | row[w] >> 1;
+  if (w > 0) about |= row[w - 1] >> 63;
+  if (w + 1 < row.size()) about |= row[w + 1] << 63;
+  if (y > 0) about |= changed_cells_.row(y - 1, z)[w];
+  if (y + 1 < grid_.y) about |= changed_cells_.row(y + 1, z)[w];
+  if (z > 0) about |= changed_cells_.row(y, z - 1)[w];
+  if (z + 1 < grid_.z) about |= changed_cells_.row(y, z + 1)[w];
   return about;
 }
 

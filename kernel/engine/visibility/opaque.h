@@ -1,6 +1,6 @@
 // Solid and inert cells are opaque: they stop rays. A caster reads them here. They are kept from one casting
 // to the next, as rows of bits and as bricks of 8x8x8 bits, so that changes are known. They take 3/8 byte for
-// each cell of the grid, in pages that stay untaken if nothing stands there.
+// each cell of the grid, and changes take 1/8, in pages that stay untaken if nothing stands there.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/bit_plane.h"
+#include "kernel/automaton/state/changed_bricks.h"
 #include "kernel/automaton/state/grid.h"
 #include "kernel/automaton/state/pages.h"
 #include "kernel/automaton/state/volume.h"
@@ -27,7 +28,8 @@ class Opaque {
     int emptied = 0;        // number of bricks that held something, and hold nothing any more
     bool any() const { return appeared || vanished || turned; }
   };
-  // Takes over the masks of a volume.
+  // Takes over the masks of a volume. It compares the bricks whose matter may have changed since the last
+  // call, by the volume's own record.
   News take(const state::Volume& volume, cpu::Workers& workers);
 
   const state::Grid& grid() const { return grid_; }
@@ -36,6 +38,9 @@ class Opaque {
   // Returns a bit for each of rows y = 64 w to 64 w + 63 of slice z. It is set if a mask of this row, or of
   // one beside it, changed when the masks were last taken. Only such a row may have other faces than before.
   std::uint64_t changed_about(std::size_t w, int z) const;
+  // Returns the cells of a word that changed then, or have a neighbour beyond a face that did. Only these may
+  // have other faces than before.
+  std::uint64_t cells_about(std::size_t w, int y, int z) const;
 
   bool contains(const Cell& cell) const { return grid_.contains(cell[0], cell[1], cell[2]); }
   bool test(const Cell& cell) const { return contains(cell) && holds(place(brick_at(cell), cell)); }
@@ -61,6 +66,9 @@ class Opaque {
   enum Contents : std::uint8_t { kEmpty, kPartly, kFull, kUnknown };
   void resize(const state::Grid& grid);
   News take_layer(const state::Volume& volume, int layer);
+  void forget_changes(int z);
+  bool may_differ(const state::Volume& volume, int y, int z) const;
+  void take_rows(const state::Volume& volume, int begin, int end, int z, News& news);
   void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
   int look_into(int layer);
   std::size_t change_word(std::size_t y, std::size_t z) const { return z * column_words_ + y / 64; }
@@ -68,11 +76,13 @@ class Opaque {
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(bits_.data()); }
 
   state::Grid grid_, bricks_;
+  state::ChangedBricks::Seen seen_;  // of the volume that was last taken
   state::BitPlane plane_, solid_;
   state::Pages bits_;                   // 64 bytes a brick
   std::vector<Contents> contents_;      // by bricks
   std::size_t column_words_ = 0;        // words of the rows of a slice
   std::vector<std::uint64_t> changed_;  // by slices: a bit for each row
+  state::BitPlane changed_cells_;       // 0 in all other rows
 };
 
 }  // namespace voxmelt::visibility

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/engine/cpu/workers.h"
 
@@ -29,6 +30,10 @@ class Provider {
   // largest irradiance, once for each source.
   virtual std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                                   state::Field<std::uint16_t>& result) = 0;
+
+  // Tells where the last call gave its result other values than it found there. It is null if all may be
+  // new.
+  virtual const state::ChangedRows* changed() const { return nullptr; }
 
   virtual std::string_view name() const { return "walk"; }
   virtual Casts casts() const { return {}; }  // none if they are not counted

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <tuple>
 #include <vector>
 
+#include "kernel/engine/visibility/visibility.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::parallel {
@@ -219,6 +221,32 @@ TEST(Sleep, HeatGoesOnInTheSameStep) {
       }
     }
     ASSERT_TRUE(same_asleep(p, start, 10)) << edge;
+  }
+}
+
+// A slab melts in the light of a lamp. Far below it a solid rests in its shadow, in tiles of its own, until
+// the lamp shines on it. It warms from then on, whether the provider tells what is new or not.
+TEST(Sleep, WhatComesOutOfAShadowWarms) {
+  Parameters p = paper_showcase();
+  p.heat.enabled = p.heat.radiation = true;
+  p.heat.weight_face = 2000;
+  p.material.melting_point = 30000;
+  p.heat.sources = {{{{0, {16 * 65, 16 * 40, 16 * 4}, std::uint64_t{1} << 30}}}};
+  Volume start({130, 24, 9});
+  for_each({56, 20, 0, 74, 21, 9}, [&](int x, int y, int z) { put_solid(start, x, y, z, 4096, 24000); });
+  for_each({62, 2, 3, 68, 4, 6}, [&](int x, int y, int z) { put_solid(start, x, y, z, 4096, 10000); });
+  for (p.heat.visibility_every = 1; p.heat.visibility_every <= 4; p.heat.visibility_every *= 4) {
+    run::Simulation expected = simulate(p, start);
+    const auto warmth = [&] { return expected.volume().heat[start.at(65, 3, 4)]; };
+    int shaded = 0;
+    for (; warmth() == 10000 && shaded < 40; ++shaded) expected.step();
+    ASSERT_GT(shaded, 5) << "it sleeps first";
+    ASSERT_LT(shaded, 40) << "the slab melts";
+    ASSERT_TRUE(same_asleep(p, start, shaded + 5));
+    run::Simulation untold(p, start, implementation(fast_implementations().back()), sleepy(2, 0),
+                           std::make_unique<visibility::VoxelWalkProvider>());
+    for (int step = 0; step < shaded; ++step) untold.step();
+    ASSERT_EQ(difference(expected.volume(), untold.volume()), "");
   }
 }
 

@@ -1,6 +1,7 @@
 // Casting only what changed gives the same bits in every cell as casting everything, call after call.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,14 +20,36 @@ struct Kept {
   state::Field<std::uint16_t> result;
 };
 
+std::uint64_t all_words(const state::Layout& layout) {
+  return layout.row() == 4096 ? ~std::uint64_t{0} : (std::uint64_t{1} << layout.row() / 64) - 1;
+}
+
+// Expects that each changed cell lies in a word that was told.
+void expect_told(const Kept& kept, const state::Field<std::uint16_t>& before, const std::string& where) {
+  const state::ChangedRows* const told = kept.provider.changed();
+  if (told == nullptr) return;
+  state::Field<std::uint16_t> result = kept.result;
+  const state::Layout& layout = result.layout();
+  for (const auto& [y, z, words] : *told) {
+    ASSERT_EQ(words & ~all_words(layout), 0u) << "beyond the grid, " << where;
+    for (std::uint64_t left = words; left != 0; left &= left - 1) {
+      const state::Slot first = layout.at(64 * std::countr_zero(left), y, z);
+      for (std::size_t x = 0; x < 64; ++x) result[first + x] = before[first + x];
+    }
+  }
+  ASSERT_EQ(result, before) << "a change was not told, " << where;
+}
+
 void expect_all_cast(Kept& kept, const Volume& v, const rule::Heat& heat, std::uint32_t step,
                      const std::string& where) {
   state::Field<std::uint16_t> expected(v.grid);
   const std::int64_t cuts = VoxelWalkProvider().irradiance(v, heat, step, expected);
   if (kept.result.layout().cells() != expected.layout().cells())
     kept.result = state::Field<std::uint16_t>(v.grid);
+  const state::Field<std::uint16_t> before = kept.result;
   ASSERT_EQ(kept.provider.irradiance(v, heat, step, kept.result), cuts) << where;
   ASSERT_EQ(kept.result, expected) << where;
+  ASSERT_NO_FATAL_FAILURE(expect_told(kept, before, where));
 }
 
 enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed };
@@ -118,12 +141,37 @@ TEST(KeptRays, CastsNothingWhereNothingChanged) {
   expect_all_cast(kept, v, heat, 0, "first");
   const Casts first = kept.provider.casts();
   EXPECT_EQ(first.cast, first.asked);
+  EXPECT_EQ(kept.provider.changed(), nullptr) << "all may be new";
   EXPECT_GT(first.asked, 0);
   heat.sources[0].keys[0].power *= 2;
   expect_all_cast(kept, v, heat, 0, "brighter");
   expect_all_cast(kept, v, heat, 0, "as before");
+  ASSERT_NE(kept.provider.changed(), nullptr);
+  EXPECT_TRUE(kept.provider.changed()->empty());
   EXPECT_EQ(kept.provider.casts().cast, first.cast);
   EXPECT_EQ(kept.provider.casts().asked, 3 * first.asked);
+}
+
+// One cell far away stands in the light of another, and melts. Nothing else has changed, near or far. The
+// volume tells in which brick it was, and nothing of the others.
+TEST(KeptRays, ARayIsCastAgainWhenTheCellThatItMetHasGone) {
+  Volume v(Grid{70, 40, 24});
+  put_solid(v, 35, 20, 12);
+  put_solid(v, 35, 2, 12);
+  put_solid(v, 60, 2, 20);
+  v.changed.follow(v.grid);
+  Kept kept;
+  const rule::Heat heat = shone_by({{16 * 35 + 8, 16 * 39, 16 * 12 + 8}});
+  const auto light = [&] { return kept.result[v.at(35, 2, 12)]; };
+  ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, 0, "shaded"));
+  EXPECT_EQ(light(), 0);
+  const std::int64_t cast = kept.provider.casts().cast;
+  v.changed.new_version();
+  v.solid.set(35, 20, 12, false);
+  v.changed.mark(state::ChangedBricks::kMatter, 1, 20 / 8, 12 / 8);
+  ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, 0, "free"));
+  EXPECT_GT(light(), 0);
+  EXPECT_EQ(kept.provider.casts().cast, cast + 1);
 }
 
 // If every second cell is solid, its rays would take 52 bytes for each cell of the grid. So nothing is kept,
