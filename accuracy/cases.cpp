@@ -70,6 +70,12 @@ Cases light() {
        "rays "
        "to a face it may be wrong by 1/(2 m) of a cell, and the gate leaves 0.05 more.",
        measure_shadow_edge},
+      {"dark_steps", "Light", "What melting bares takes up light at once",
+       "A sun melts twelve layers of a slab, and a near source a third of a ball. A cell that melting bares "
+       "is "
+       "dark until the next step of visibility. At every step nothing may be lost; longer periods are "
+       "reported.",
+       measure_dark_steps},
   };
 }
 
@@ -91,6 +97,11 @@ Cases spreading() {
        "A dam that starts on Huppert's profile, from depth 4 to 2, in the middle row of a channel 33 cells "
        "wide.",
        measure_dam_length},
+      {"dam_width", "Spreading", "The dam has the same length in a channel of any width",
+       "The same dam, from depth 4 to 2.6, in channels from 1 to 33 cells wide.", measure_dam_width},
+      {"dam_refined", "Spreading", "A dam keeps to theory in cells of any size",
+       "Cells of 2 to 1/4 units, and steps as many times shorter, with the sub-steps of the default.",
+       measure_dam_refined},
       {"dam_viscosity", "Spreading", "Dams of different viscosity are alike after equal kappa x steps",
        "Dams 16 high and 32 long. Beside them stands lubrication theory, integrated by finite volumes an "
        "eighth of a cell "
@@ -111,6 +122,12 @@ Cases slopes() {
        "The solid's surface lies where its amount and its heat say. "
        "Kappa 0.1 where it is cold, and 0.02 where it melts under a sun.",
        measure_melting_film},
+      {"narrow_film", "Slopes", "The same between walls",
+       "A film of depth 1.6 in channels from 1 to 9 cells wide.", measure_narrow_film},
+      {"thermal_film", "Slopes", "The mobility doubles with every `doubling` of temperature",
+       "A film of depth 1.6 at one temperature, slope 0.25. Its kappa is chosen so that it is 0.1 at this "
+       "temperature.",
+       measure_thermal_film},
       {"stairs", "Slopes", "The same on steps of whole cells",
        "A bed that cannot be told from stairs holds liquid back. Reported.", measure_stairs},
       {"blob", "Slopes", "A blob runs straight down a plane at any angle to the grid",

@@ -36,6 +36,8 @@ struct Film {
   int length = 96, width = 33;
   std::uint32_t lead = 64, counted = 256;
   double kappa = 0.1;
+  std::vector<std::string> sets{};  // beside the grid and kappa
+  double heat = 0;                  // of the liquid, 0..65535
 
   int first() const { return length / 2 - 10; }
   int last() const { return length / 2 + 10; }
@@ -49,14 +51,17 @@ struct Film {
   }
   Row measure(const Conditions& conditions) const {
     const int high = static_cast<int>(std::ceil(slope * length)) + 1;
-    Trial trial(conditions, "flow",
-                {fmt::format("grid.size=[{},{},{}]", length, high + 4, width),
-                 fmt::format("flow.viscous.kappa={}", kappa)},
-                [&](state::Volume& v) {
-                  for (int z = 0; z < width; ++z)
-                    for (int x = 0; x < length; ++x)
-                      put_bed(v, x, z, 1 + slope * (length - 0.5 - x), depth, bed);
-                });
+    std::vector<std::string> all = sets;
+    all.push_back(fmt::format("grid.size=[{},{},{}]", length, high + 4, width));
+    all.push_back(fmt::format("flow.viscous.kappa={}", kappa));
+    Trial trial(conditions, "flow", all, [&](state::Volume& v) {
+      for (int z = 0; z < width; ++z)
+        for (int x = 0; x < length; ++x) put_bed(v, x, z, 1 + slope * (length - 0.5 - x), depth, bed);
+      if (heat == 0) return;
+      for_each_cell(v.grid, [&](int x, int y, int z) {
+        if (v.liquid.test(x, y, z)) v.heat[v.at(x, y, z)] = to_units(heat);
+      });
+    });
     trial.run_to(lead);
     const Columns before(trial.volume());
     trial.run_to(lead + counted);
@@ -177,6 +182,45 @@ Outcome measure_nusselt(const Conditions& conditions) {
   deep.gate = 0.05;
   outcome.rows.push_back(std::move(deep));
   outcome.charts.push_back(std::move(chart));
+  return outcome;
+}
+
+Outcome measure_narrow_film(const Conditions& conditions) {
+  Outcome outcome;
+  for (const int width : {1, 2, 3, 5, 9})
+    for (const double slope : {0.1, 0.5}) {
+      Film film{slope, 1.6};
+      film.width = width;
+      Row row = film.measure(conditions);
+      row.setting = fmt::format("slope {:g}, {} cells wide", slope, width);
+      row.gate = 0.02;
+      outcome.rows.push_back(std::move(row));
+    }
+  return outcome;
+}
+
+// The film has one kappa at its temperature. So it carries what the film without a thermal law carries.
+Outcome measure_thermal_film(const Conditions& conditions) {
+  Outcome outcome;
+  const double cold = Film{0.25, 1.6}.measure(conditions).value;
+  for (const double doubling : {0.5, 0.12, 0.02, 0.005})
+    for (const double octaves : {-3.3, -0.7, 0.0, 0.5, 2.2}) {
+      const double temperature = 0.5 + octaves * doubling;
+      if (temperature < 0 || temperature > 1) continue;
+      Film film{0.25, 1.6};
+      film.heat = std::round(temperature * kHottest);
+      const double wanted = std::exp2((film.heat / kHottest - 0.5) / doubling);
+      film.kappa /= wanted;
+      film.sets = {"heat.gamma=1e-9", "flow.thermal.reference=0.5",
+                   fmt::format("flow.thermal.doubling={}", doubling)};
+      Row row = film.measure(conditions);
+      row.setting =
+          fmt::format("doubling {:g}, mobility {:.3f} times that at the reference", doubling, wanted);
+      row.quantity = "flux over that without a thermal law";
+      row.value /= wanted * cold;  // the row's kappa was smaller by as much
+      row.gate = 0.01;
+      outcome.rows.push_back(std::move(row));
+    }
   return outcome;
 }
 

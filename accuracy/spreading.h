@@ -8,6 +8,8 @@ Outcome measure_huppert(const Conditions&);
 Outcome measure_thin_film(const Conditions&);
 Outcome measure_flux_vent(const Conditions&);
 Outcome measure_dam_length(const Conditions&);
+Outcome measure_dam_width(const Conditions&);
+Outcome measure_dam_refined(const Conditions&);
 Outcome measure_dam_viscosity(const Conditions&);
 Outcome measure_drop_shape(const Conditions&);
 

@@ -59,7 +59,7 @@ KEYS = {
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),
     "heat.visibility_every": Key(1, 1024, 1, 4, 2, 1023),
     "heat.rays_per_face": Choice(1, 4, 16),
-    "heat.air.exchange": Key(TINY, 0.57735, 0.01, 0.5, 1 / 65536),
+    "heat.air.exchange": Key(1 / 65536, 0.57735, 0.01, 0.5, 3 / 65536),
     "heat.air.bottom": TEMPERATURE,
     "heat.air.top": TEMPERATURE,
     "heat_source.kind": Choice(*KEYS_OF),
@@ -98,7 +98,7 @@ KEYS = {
     "flow.viscous.substeps": Key(1, 1024, 1, 5, 2, 3, 4, 7, 64, 257),  # or "auto"
     "flow.viscous.substeps_max": Key(1, 1024, 1, 12, 2, 63),
     "flow.thermal.reference": TEMPERATURE,
-    "flow.thermal.doubling": Key(0.001, 1, 0.02, 0.5),
+    "flow.thermal.doubling": Key(0.002, 1, 0.005, 0.5),
     "vent.at": POSITION,
     "vent.radius": Key(TINY, 8192, 0.6, 4.0, 0.5, 1),
     "vent.rate": Key(TINY, 1, 0.02, 1.0, 1 / 4096, 4095 / 4096),

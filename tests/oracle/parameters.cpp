@@ -224,10 +224,14 @@ Parameters read_parameters(const std::string& path) {
     p.viscous.substeps_max = integer(viscous, "substeps_max", 1, 1024);
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
-  if (p.thermal_viscosity) {
+  if (p.thermal_viscosity && p.paper_law) {
     // The numbers have 16 bits: docs/proofs.md, "Widths".
     p.mobility_table = integers(member(flow, "mobility_table"), "mobility_table", 0, 65535);
     require(p.mobility_table.size() == 32, "mobility_table has not 32 numbers");
+  }
+  if (p.thermal_viscosity && !p.paper_law) {
+    p.mobility_reference = integer(flow, "mobility_reference", 0, 65535);
+    p.mobility_rate = integer(flow, "mobility_rate", 0, 32767);
   }
   return p;
 }

@@ -89,7 +89,8 @@ struct Parameters {
   PaperFlow paper;
   ViscousFlow viscous;
   bool thermal_viscosity = false;
-  std::vector<Int> mobility_table;
+  std::vector<Int> mobility_table;                // the paper's law only
+  Int mobility_reference = 0, mobility_rate = 0;  // the viscous law only
 };
 
 Parameters read_parameters(const std::string& path);

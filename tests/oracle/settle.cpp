@@ -86,12 +86,27 @@ void for_each_run(const State& state, Action action) {
   }
 }
 
-// Returns `raw` in 1/2^24. The product takes 64 bits without a sign.
+// Holds what thermal viscosity multiplies by: e 2^n / 4096.
+struct PowerOfTwo {
+  Int n, e;
+};
+
+// Returns the power of two for a run of the mean heat h.
+PowerOfTwo thermal_factor(const Parameters& parameters, Int h) {
+  const Int wanted = ((h - parameters.mobility_reference) * parameters.mobility_rate) >> 6;
+  const Int x = clamp(wanted, -(Int{1} << 21), (Int{1} << 19) - 1);  // in 1/65536 octave
+  const Int n = x >> 16;
+  const Int f = x - 65536 * n;  // x mod 65536, not negative
+  return {n, 4096 + ((f * (43057 + ((22479 * f) >> 16))) >> 20)};
+}
+
+// Returns `raw` in 1/2^24. The first product takes 64 bits without a sign, the second one 53.
 Int raw_mobility(const Parameters& parameters, const Unsettled& run, Int pace) {
   const Int M = smaller(run.M, 262144);
   const Int raw = static_cast<Int>((Sum{pace} * (M * M >> 8) + (Sum{1} << 23)) >> 24);
   if (!parameters.thermal_viscosity) return raw;
-  return (raw * parameters.mobility_table[run.mean_heat() >> 11]) >> 15;
+  const PowerOfTwo factor = thermal_factor(parameters, run.mean_heat());
+  return (raw * factor.e) >> (12 - factor.n);
 }
 
 // Returns `limit` in 1/65536.

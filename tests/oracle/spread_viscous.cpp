@@ -6,7 +6,7 @@
 namespace oracle {
 namespace {
 
-// Returns slope[t]: floor((numerator + floor(q / 2)) / q).
+// Returns the slope of an axis or of a diagonal by t: floor((numerator + floor(q / 2)) / q).
 constexpr Int slope(Int t, bool diagonal) {
   const Int root = 65536 + 256 * t * t + t * t * t * t;
   const Int q = diagonal ? root * root : 256 + 2 * t * t;
@@ -31,6 +31,23 @@ Int tilt(const Run& giver, const Run& taker) {
   if (!taker.bed.has_value()) return 0;
   const Int difference = (*giver.bed >> 5) - (*taker.bed >> 5);
   return smaller(16, larger(difference, -difference));
+}
+
+// Returns p of a pair across an axis: how many of the four cells beside it are blocked.
+Int blocked_beside(const State& state, Place at, const Direction& direction) {
+  Int p = 0;
+  for (const Int side : {Int{-1}, Int{1}}) {
+    const Int x = at.x + side * direction.dz, z = at.z + side * direction.dx;  // beside i
+    if (state.blocked(x, at.y, z)) ++p;
+    if (state.blocked(x + direction.dx, at.y, z + direction.dz)) ++p;
+  }
+  return p;
+}
+
+// Returns s: an axis also has an eighth for each blocked cell beside it.
+Int slope_of_pair(const State& state, Place at, const Direction& direction, Int t) {
+  if (direction.diagonal) return slope(t, true);
+  return slope(t, false) + blocked_beside(state, at, direction) * (slope(t, true) >> 3);
 }
 
 // Returns R of an axis between cells at height y.
@@ -59,7 +76,7 @@ void give(State& state, Int i, Place at, const Direction& direction) {
 
   const Int drop = smaller(whole_drop, direction.diagonal ? 724 : 512);
   const Int t = tilt(giver, taker);
-  const Int drive = (slope(t, direction.diagonal) * drop) >> 10;
+  const Int drive = (slope_of_pair(state, at, direction, t) * drop) >> 10;
   const Int A_i = state.cells[i].amount, A_j = state.cells[j].amount;
   Int m = (taker.member == 1 ? giver.mobility : giver.exposed) + taker.mobility;
   if (taker.limit.has_value()) m = smaller(m, 512 * *giver.limit);

@@ -138,8 +138,8 @@ class SettleFaults : public Planted {
   }
   static bool show_alike(const Faulty& stage, const SettleWord& one, const SettleWord& other) {
     const auto cell = [&](const SettleWord& record) {
-      const RunShow show = hwmodel::shown(record.sum, record.last, 0, record.mobility, stage.flow_,
-                                          stage.pace_, stage.widths_);
+      const RunShow show =
+          hwmodel::shown(record.sum, record.last, 0, record.mean, stage.flow_, stage.pace_, stage.widths_);
       Cell shows;
       shows.head = show.head;
       shows.mobility = show.mobility;

@@ -15,26 +15,28 @@ class ViscousSpreadFaults : public Planted {
   using Planted::Planted;
   using Faulty = ViscousSpread<ViscousSpreadFaults>;
 
-  void wanted(Faulty& stage, const SeenCell& from, const SeenCell& to, int axis, UInt<16>& amount) {
+  void wanted(Faulty& stage, const SeenCell& from, const SeenCell& to, const SpreadPair& pair,
+              UInt<16>& amount) {
+    const int axis = pair.axis;
     const bool rests = stage.rests(from, to, axis);
     UInt<16> wrong = amount;
     if (rests && armed(stage, Fault::viscous_dead_zone))
-      wrong = stage.wanted(from, to, axis, stage.dither_of_axis(axis));
+      wrong = stage.wanted(from, to, pair, stage.dither_of_axis(axis));
     if (!rests && armed(stage, Fault::viscous_dither))
-      wrong = stage.wanted(from, to, axis, stage.dither_of_axis((axis + 1) % 4));
+      wrong = stage.wanted(from, to, pair, stage.dither_of_axis((axis + 1) % 4));
     if (!rests && armed(stage, Fault::viscous_substep))
-      wrong = stage.wanted(from, to, axis, dither(stage, axis, 0, 1));
+      wrong = stage.wanted(from, to, pair, dither(stage, axis, 0, 1));
     if (!rests && armed(stage, Fault::viscous_layer))
-      wrong = stage.wanted(from, to, axis, dither(stage, axis, 1, 0));
+      wrong = stage.wanted(from, to, pair, dither(stage, axis, 1, 0));
     if (!rests && armed(stage, Fault::viscous_slope)) {
       SeenCell level = from;
       level.bed = to.bed;
-      wrong = stage.wanted(level, to, axis, stage.dither_of_axis(axis));
+      wrong = stage.wanted(level, to, pair, stage.dither_of_axis(axis));
     }
     if (!rests && armed(stage, Fault::viscous_mean) && from.bed == to.bed) {
       SeenCell without_bed = to;  // the factor of the slope is that of a level bed, too
       without_bed.bed = kNoBed;
-      wrong = stage.wanted(from, without_bed, axis, stage.dither_of_axis(axis));
+      wrong = stage.wanted(from, without_bed, pair, stage.dither_of_axis(axis));
     }
     if (wrong == amount) return;
     amount = wrong;

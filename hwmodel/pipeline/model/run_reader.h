@@ -33,9 +33,10 @@ struct SpreadWord {
   UInt<1> beside_wall;
   UInt<16> amount = kFlatBed, heat;  // unchanged; a pair looks at these
   // The following belong to a cell that is not blocked.
-  UInt<16> present;  // amount after the pairs done so far
-  UInt<32> content;  // amount x heat after them
-  SInt<30> head;     // head of the run, in its first cell
+  UInt<16> present;                             // amount after the pairs done so far
+  UInt<32> content;                             // amount x heat after them
+  SInt<30> head;                                // head of the run, in its first cell
+  UInt<1> west_blocked = 1, south_blocked = 1;  // the cells that came before it, beside it
   // The following belong to a blocked cell.
   RunPace above;                     // pace of the run that begins in the next cell up
   UInt<SolidBed::kRiseBits> melted;  // rise of a solid's bed; an inert cell's follows from its amount
@@ -48,7 +49,7 @@ struct SpreadWord {
   // Returns the bits of a word. The two kinds share them.
   static int bits(int head_bits, bool hot, bool walls) {
     const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits + SolidBed::kRiseBits;
-    const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits;
+    const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits + 2;
     return std::max(blocked, open);
   }
   // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, wall.

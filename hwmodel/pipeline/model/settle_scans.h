@@ -22,15 +22,15 @@ struct SettleWord {
   UInt<12> last;            // record: number of cells less one
   UInt<16> heat;            // the cell's; in the uppermost cell of a run that mixes: the mixture's
   // The following belong to the record, with heat.
-  UInt<1> ordered;   // the run keeps its order (not after the second scan)
-  UInt<16> top;      // amount of the uppermost cell of such a run (not after the second scan)
-  UInt<5> mobility;  // entry of the mobility table, with thermal viscosity
+  UInt<1> ordered;  // the run keeps its order (not after the second scan)
+  UInt<16> top;     // amount of the uppermost cell of such a run (not after the second scan)
+  UInt<16> mean;    // mean heat, with thermal viscosity
 
   bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
 
   // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first.
   static int bits(const RunWidths& widths, bool hot, bool thermal) {
-    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 5 : 0) : 0);
+    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 16 : 0) : 0);
   }
   static int bits_upwards(const RunWidths& widths, bool hot, bool thermal) {
     return bits(widths, hot, thermal) + (hot ? 1 + 16 : 0);
@@ -91,7 +91,7 @@ class SumScan {
     word.heat = ordered ? held_.heat : mix(content_, sum_, dither);
     word.ordered = ordered;
     word.top = ordered ? std::int64_t{held_.sum} : 0;
-    word.mobility = mix(content_, sum_, 0) >> 11;  // the same division, not rounded
+    word.mean = mix(content_, sum_, 0);  // the same division, not rounded
     return word;
   }
 
@@ -132,9 +132,9 @@ class RecordScan {
         return {SettleKind::inner, 0, 0, lower(word.sum, word.heat, dither), 0, 0, 0};
       case SettleKind::first:
         return {SettleKind::first, record_.sum, record_.last, lower(word.sum, word.heat, dither), 0, 0,
-                record_.mobility};
+                record_.mean};
       case SettleKind::single:
-        return {SettleKind::first, word.sum, word.last, word.heat, 0, 0, word.mobility};
+        return {SettleKind::first, word.sum, word.last, word.heat, 0, 0, word.mean};
       default:
         return word;
     }
@@ -190,7 +190,7 @@ class ShowScan {
   void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
               const RunWidths& widths, Cell& cell) {
     if (word.kind == SettleKind::first) {
-      show_ = shown(word.sum, word.last, bed_head(y, rise_), word.mobility, flow, pace, widths);
+      show_ = shown(word.sum, word.last, bed_head(y, rise_), word.mean, flow, pace, widths);
       level_ = word.sum;
       // The product with kOverMax = 61439 takes two shifts and two subtractions.
       spare_ = std::min(over_of(word.sum, word.last) - kOverMax * word.last, kOverMax);

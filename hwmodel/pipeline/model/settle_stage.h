@@ -42,13 +42,14 @@ class Settle final : public Stage {
             upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
   }
 
-  // Multipliers serve depth squared, the mobility in two parts, and its table. With heat, two serve the
+  // Multipliers serve depth squared, the mobility in two parts, and four its change by
+  // heat. With heat, two serve the
   // mixture (amount x heat and rounding), and two the way up (flow x heat and rounding). Three serve the way
   // down (amount x heat, flow x heat and rounding), and two the bed of a solid. Dividers serve the limit, the
   // dead zone and, with heat, the mixture. Each is used once per run, at most every second cycle. With heat
   // there is one more on each way, used every cycle.
   Units units() const override {
-    return {3 + (flow_.thermal_viscosity ? 1 : 0) + (hot_ ? 2 + 2 + 3 + 2 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
+    return {3 + (flow_.thermal_viscosity ? 4 : 0) + (hot_ ? 2 + 2 + 3 + 2 : 0), 2 + (hot_ ? 1 + 2 : 0), 0};
   }
 
  protected:

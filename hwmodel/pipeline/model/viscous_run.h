@@ -92,9 +92,19 @@ struct RunShow {
   UInt<25> dead;
 };
 
-// `entry` is a row of the mobility table, by the run's mean heat. `pace` is the mobility parameter of one
-// sub-step.
-inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t entry,
+// Returns the mobility times 2^(x / 65536). The power of the fraction is a parabola of two products.
+inline std::int64_t warmed(UInt<40> mobility, UInt<16> mean, const rule::Flow& flow) {
+  const SInt<17> above = std::int64_t{mean} - flow.mobility_reference;
+  const SInt<26> octaves = SInt<32>(above * std::int64_t{flow.mobility_rate}) >> 6;
+  const SInt<22> x = std::clamp<std::int64_t>(octaves, -(1 << 21), (1 << 19) - 1);
+  const UInt<16> fraction = x & 0xFFFF;
+  const UInt<16> slope = 43057 + (22479 * fraction >> 16);
+  const UInt<13> power = kOne + (std::int64_t{fraction} * slope >> 20);
+  return UInt<53>(std::int64_t{mobility} * power) >> (12 - (std::int64_t{x} >> 16));
+}
+
+// `mean` is the run's mean heat, with thermal viscosity. `pace` is the mobility parameter of one sub-step.
+inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std::int64_t mean,
                      const rule::Flow& flow, std::int64_t pace, const RunWidths& widths) {
   const rule::ViscousLaw& law = flow.viscous;
   const std::int64_t over = over_of(wire(sum, widths.sum), wire(last, widths.count)), cells = (sum >> 12) + 1;
@@ -104,9 +114,8 @@ inline RunShow shown(std::int64_t sum, std::int64_t last, std::int64_t bed, std:
   // The product has 64 bits. It is computed in two parts of 18 x 29.
   const UInt<47> low = (wire(pace, 36) & 0x3FFFF) * square + (1 << 23);
   const UInt<47> high = (pace >> 18) * square + (low >> 18);
-  UInt<41> raw = high >> 6;
-  if (flow.thermal_viscosity)
-    raw = (std::min<std::int64_t>(raw, std::int64_t{1} << 36) * looked_up(flow.mobility_table, entry)) >> 15;
+  std::int64_t raw = high >> 6;
+  if (flow.thermal_viscosity) raw = warmed(raw, mean, flow);
 
   RunShow show;
   show.head = signed_wire(bed + (sum >> 3) + (law.stiffness - 1) * (over >> 3), widths.head);

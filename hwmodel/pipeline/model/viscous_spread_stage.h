@@ -1,7 +1,8 @@
 // The stage runs the phase `spread` of the viscous law (docs/automaton.md, section 11). A pair is done when
-// the last of its two cells has come and, for a diagonal, the last of its two corners. So a cell q that comes
-// completes four pairs: q with the cells W and S beside it, q with SW, and W with S. Each pair is computed
-// once and booked at both cells, in the taps.
+// its two cells have come and, for a diagonal, its corners, for an axis, the four cells beside it. So a cell
+// q that comes completes four pairs: q with SW and W with S across, S with SW along x, and W with SW along z.
+// The words of a pair's cells keep what lay beside them before. Each pair is computed once and booked at
+// both cells, in the taps.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +16,11 @@
 #include "hwmodel/pipeline/model/stage.h"
 
 namespace voxmelt::hwmodel {
+
+struct SpreadPair {
+  int axis;
+  UInt<3> blocked_beside;  // blocked cells of the four beside an axis pair
+};
 
 template <class Faults>
 class ViscousSpread final : public Stage {
@@ -46,9 +52,9 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
-  // A pair multiplies (g + mobility) a, slope x drop (the slope's factor is read from 17 words) and c drive,
-  // and with heat f h. With heat, a cell multiplies A h and the mixture's rounding, and two multipliers serve
-  // the bed of a solid.
+  // A pair multiplies (g + mobility) a, slope x drop (the slope's factor is read from 17 words, an axis adds
+  // up to four eighths of the diagonal's) and c drive, and with heat f h. With heat, a cell multiplies A h
+  // and the mixture's rounding, and two multipliers serve the bed of a solid.
   Units units() const override { return {13 + (hot_ ? 4 + 2 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
@@ -84,7 +90,7 @@ class ViscousSpread final : public Stage {
       const std::size_t lane = each;
       const bool corner = west != nullptr && z > 0;
       look(now_[lane].seen, west != nullptr ? &west->seen : nullptr, z > 0 ? &south_[lane].seen : nullptr,
-           corner ? &south_west->seen : nullptr);
+           corner ? &south_west->seen : nullptr, z);
       west = &now_[lane];
       south_west = &south_[lane];
     }
@@ -145,18 +151,32 @@ class ViscousSpread final : public Stage {
     }
   }
 
-  // Computes the pairs that q completes. A null cell is outside of the grid.
-  void look(const SeenCell& q, const SeenCell* w, const SeenCell* s, const SeenCell* sw) {
+  // Computes the pairs that q completes. A null cell is outside of the grid. Beside the border in the east
+  // and the north nothing else will come. The units that do those pairs here are idle when the next row, or
+  // the next plane, begins.
+  void look(const SeenCell& q, const SeenCell* w, const SeenCell* s, const SeenCell* sw, int z) {
     if (walls_) note_walls(*q.word, w != nullptr ? w->word : nullptr, s != nullptr ? s->word : nullptr, q.x);
+    q.word->west_blocked = blocked(w);
+    q.word->south_blocked = blocked(s);
     const bool any = q.word->runs() || (w != nullptr && w->word->runs()) ||
                      (s != nullptr && s->word->runs()) || (sw != nullptr && sw->word->runs());
     if (!any) return;
-    if (w != nullptr) pair(q, *w, 0);
-    if (s != nullptr) pair(q, *s, 1);
+    const bool last_x = q.x == shape().grid.x - 1, last_z = z == shape().grid.z - 1;
+    if (last_x && s != nullptr) pair(q, *s, 1, 2 + beside(q.word->west_blocked, s->word->west_blocked));
+    if (last_z && w != nullptr) pair(q, *w, 0, 2 + beside(q.word->south_blocked, w->word->south_blocked));
     if (sw == nullptr) return;
+    if (q.x < shape().grid.x)
+      pair(*w, *sw, 1,
+           beside(blocked(&q), blocked(s)) + beside(w->word->west_blocked, sw->word->west_blocked));
+    if (z < shape().grid.z)
+      pair(*s, *sw, 0,
+           beside(blocked(&q), blocked(w)) + beside(s->word->south_blocked, sw->word->south_blocked));
     if (!w->word->blocked() || !s->word->blocked()) pair(q, *sw, 2);
     if (!q.word->blocked() || !sw->word->blocked()) pair(*w, *s, 3);
   }
+
+  static bool blocked(const SeenCell* cell) { return cell == nullptr || cell->word->blocked(); }
+  static int beside(bool one, bool other) { return int{one} + int{other}; }
 
   void note_walls(SpreadWord& q, SpreadWord* w, SpreadWord* s, int x) const {
     if (w == nullptr || w->blocked() || s == nullptr || s->blocked() || x == shape().grid.x - 1 ||
@@ -167,9 +187,11 @@ class ViscousSpread final : public Stage {
     if (s != nullptr) s->beside_wall = 1;
   }
 
-  void pair(const SeenCell& a, const SeenCell& b, int axis) {
+  // An axis pair has so many blocked cells of the four beside it.
+  void pair(const SeenCell& a, const SeenCell& b, int axis, int blocked_beside = 0) {
     if (a.word->blocked() || b.word->blocked() || a.head == b.head) return;
-    a.head > b.head ? flow(a, b, axis) : flow(b, a, axis);
+    const SpreadPair pair{axis, blocked_beside};
+    a.head > b.head ? flow(a, b, pair) : flow(b, a, pair);
   }
 
   // Returns the dither of sub-step k, in the layer with this dither. The lanes of a token share it.
@@ -182,10 +204,10 @@ class ViscousSpread final : public Stage {
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[axis]; }
 
   // Lets liquid flow from the cell with the higher head.
-  void flow(const SeenCell& from, const SeenCell& to, int axis) {
+  void flow(const SeenCell& from, const SeenCell& to, const SpreadPair& pair) {
     if (!from.word->runs()) return;
-    UInt<16> amount = rests(from, to, axis) ? 0 : wanted(from, to, axis, dither_of_axis(axis));
-    faults_.wanted(*this, from, to, axis, amount);
+    UInt<16> amount = rests(from, to, pair.axis) ? 0 : wanted(from, to, pair, dither_of_axis(pair.axis));
+    faults_.wanted(*this, from, to, pair, amount);
     if (amount == 0) return;
     move(*from.word, *to.word, amount);
     faults_.moved(*this, from, to, amount);
@@ -198,7 +220,7 @@ class ViscousSpread final : public Stage {
   }
 
   // Returns the factor by the difference of the beds, in 1/16 cell. The hardware has two tables of 17 words.
-  static std::int64_t slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
+  static UInt<15> slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
     if (from.bed == kNoBed || to.bed == kNoBed) return 16384;
     const UInt<5> steps = std::min<std::int64_t>(16, std::abs(std::int64_t{from.bed} - to.bed));
     const std::int64_t square = steps * steps, root = 65536 + 256 * square + square * square;
@@ -213,8 +235,11 @@ class ViscousSpread final : public Stage {
     return (from.word->amount + to.word->amount + 1) >> 1;
   }
 
-  static std::int64_t wanted(const SeenCell& from, const SeenCell& to, int axis, std::int64_t dither) {
-    const bool diagonal = is_diagonal(axis);
+  static std::int64_t wanted(const SeenCell& from, const SeenCell& to, const SpreadPair& pair,
+                             std::int64_t dither) {
+    const bool diagonal = is_diagonal(pair.axis);
+    const UInt<12> across = slope_factor(from, to, true) >> 3;
+    const UInt<15> slope = slope_factor(from, to, diagonal) + pair.blocked_beside * across;
     const std::int64_t drop = from.head - to.head;
     const SpreadWord& giver = *from.word;
     const SpreadWord& taker = *to.word;
@@ -223,7 +248,7 @@ class ViscousSpread final : public Stage {
     if (to.pace.limit > 0) mobility = std::min<std::int64_t>(mobility, from.pace.limit << 9);
     const UInt<39> conducted = UInt<23>(mobility) * flowing(from, to);
     const UInt<24> conductance = std::min<std::int64_t>((1 << 24) - 1, conducted >> 12);
-    const UInt<14> drive = (slope_factor(from, to, diagonal) * std::int64_t{capped}) >> 10;
+    const UInt<14> drive = (slope * std::int64_t{capped}) >> 10;
     const UInt<38> product = std::int64_t{conductance} * drive;
     const std::int64_t flows = diagonal ? (product + (dither << 12)) >> 28 : (product + (dither << 10)) >> 26;
     const std::int64_t room = std::max<std::int64_t>(0, (taker.runs() ? kAmountMax : kOne) - taker.amount);

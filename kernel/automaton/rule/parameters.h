@@ -171,7 +171,9 @@ struct Flow {
   PaperLaw paper;
   ViscousLaw viscous;
   bool thermal_viscosity = false;                  // extra: mobility or share times the table / 32768
-  std::array<std::uint16_t, 32> mobility_table{};  // indexed by T >> 11; 32768 is 1
+  std::array<std::uint16_t, 32> mobility_table{};  // of the paper's law, by T >> 11; 32768 is 1
+  std::uint16_t mobility_reference = 0;            // of the viscous law: temperature at which it is 1
+  std::uint16_t mobility_rate = 0;                 // 1/64 octave over the range of temperatures
 };
 
 struct Parameters {

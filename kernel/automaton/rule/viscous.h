@@ -79,6 +79,16 @@ VOXMELT_RULE std::int32_t mixing_dither(std::uint32_t step, int k) {
   return (dither(step) + dither(k)) & 0xFFFF;
 }
 
+// Returns the mobility (below 2^40) times 2^(x / 65536), but for 0.4 %. A parabola stands for the power of
+// the fraction.
+VOXMELT_RULE std::int64_t warmed(std::int64_t mobility, std::int32_t h, const Flow& flow) {
+  const std::int32_t octaves = ((h - flow.mobility_reference) * flow.mobility_rate) >> 6;  // in 1/65536
+  const std::int32_t x = std::clamp(octaves, -(1 << 21), (1 << 19) - 1);
+  const std::uint32_t f = x & 0xFFFF;
+  const std::uint32_t power = 4096 + ((f * (43057 + ((22479 * f) >> 16))) >> 20);
+  return (mobility * power) >> (12 - (x >> 16));
+}
+
 // Returns the mobility kq M^2, in 1/2^24 and without a limit, in one of n sub-steps. The run has the sum
 // `mass` and the heat content h.
 VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const Flow& flow, int substeps) {
@@ -86,8 +96,7 @@ VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const 
   const std::uint64_t pace = (flow.viscous.mobility + n / 2) / n;
   const std::uint64_t depth = std::min<std::int64_t>(mass, 64 * kOne);
   std::int64_t mobility = (pace * (depth * depth >> 8) + (1 << 23)) >> 24;
-  if (flow.thermal_viscosity) mobility = (mobility * flow.mobility_table[h >> 11]) >> 15;
-  return mobility;
+  return flow.thermal_viscosity ? warmed(mobility, h, flow) : mobility;
 }
 // Limits the mobility, in 1/65536. So a column gives at most a fifth of a cell of height to another column.
 VOXMELT_RULE std::int32_t run_limit(std::int64_t mass, std::int64_t over, const ViscousLaw& law) {
@@ -146,10 +155,14 @@ inline constexpr std::array<SlopeTable, 2> kSlopeFactor = [] {  // [diagonal]
   }
   return factor;
 }();
-VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, bool diagonal) {
-  const SlopeTable& factor = kSlopeFactor[diagonal ? 1 : 0];
-  if (bed == kNoBed || other == kNoBed) return factor[0];
-  return factor[std::min(kSteepest, std::max(bed - other, other - bed))];
+// A diagonal to a blocked cell carries nothing. Its share goes to the axes along it, an eighth of an axis
+// each. `blocked_beside` counts the blocked cells of the four beside an axis pair. It is 0 for a diagonal.
+VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, bool diagonal,
+                                       int blocked_beside) {
+  const bool sloped = bed != kNoBed && other != kNoBed;
+  const std::int32_t t = sloped ? std::min(kSteepest, std::max(bed - other, other - bed)) : 0;
+  const std::int32_t across = kSlopeFactor[1][t];
+  return diagonal ? across : kSlopeFactor[0][t] + blocked_beside * (across >> 3);
 }
 
 // Returns the amount that flows at a drop. Between level beds it is the mean of both cells, since the face
@@ -163,7 +176,8 @@ VOXMELT_RULE std::int32_t flowing_amount(const Column& giver, std::int32_t a, co
 // Returns the flow from `giver` (amount a) to `taker` (amount b). It is 0 unless the giver stands higher and
 // in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
-                                       std::int32_t b, bool diagonal, std::int32_t dither) {
+                                       std::int32_t b, bool diagonal, std::int32_t dither,
+                                       int blocked_beside = 0) {
   if (!giver.in_run) return 0;
   const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
   std::int32_t drop = giver.head - taker.head;
@@ -174,7 +188,8 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   if (taker.limit > 0) mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << 9);
   const std::int64_t flowing = flowing_amount(giver, a, taker, b);
   const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * flowing) >> 12);
-  const std::int64_t drive = (slope_factor(giver.bed, taker.bed, diagonal) * drop) >> 10;  // 1/8192 cell
+  const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
+  const std::int64_t drive = (slope * drop) >> 10;  // 1/8192 cell
   const std::int64_t product = conductance * drive, offset = dither;
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
                                                          : (product + (offset << 10)) >> 26);

@@ -14,6 +14,13 @@ namespace {
 // Each axis has its own part of the dither: x, z, and the two diagonals.
 constexpr std::array<int, 8> kDitherAxis{0, 0, 1, 1, 2, 3, 3, 2};
 
+// Counts the blocked cells beside an axis pair: those of both cells that lie across the other axis.
+int blocked_beside(const Cells& cells, int x, int y, int z, rule::Direction to) {
+  const auto blocked = [&](int dx, int dz) { return static_cast<int>(cells.blocked(x + dx, y, z + dz)); };
+  return blocked(to.dz, to.dx) + blocked(-to.dz, -to.dx) + blocked(to.dx + to.dz, to.dz + to.dx) +
+         blocked(to.dx - to.dz, to.dz - to.dx);
+}
+
 }  // namespace
 
 void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
@@ -54,9 +61,10 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       const rule::Column there = column(nx, y, nz);
       const std::int32_t offset =
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
-      out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset);
+      const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
+      out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset, walls);
       const std::int32_t taken =
-          rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset);
+          rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset, walls);
       in += taken;
       content += content_of(taken, volume.heat[j]);
     }

@@ -3,6 +3,7 @@
 // the compiler to vectorise.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -43,7 +44,6 @@ class RunData {
  public:
   [[gnu::always_inline]] RunData(const Step& step)
       : flow_(step.parameters->flow),
-        table_(step.parameters->flow.mobility_table.data()),
         pace_((step.parameters->flow.viscous.mobility + step.substeps / 2) / step.substeps),
         dither_(step.dither) {}
 
@@ -205,21 +205,35 @@ class RunData {
                                    Lanes32& mobility) const {
     const int end = begin + L::kCount;
     const double high = static_cast<double>(pace_ >> 18), low = static_cast<double>(pace_ & 0x3FFFF);
+    alignas(64) double power[64];
+    if constexpr (kThermal) powers(begin, mean, power);
     for (int i = begin; i < end; ++i) {
       const double depth = mass[i] < 262144 ? mass[i] : 262144;
       const double square = static_cast<int>(depth * depth * (1.0 / 256));
       const int carried = static_cast<int>((low * square + 8388608.0) * (1.0 / 262144));
       double free = (high * square + carried) * (1.0 / 64);
-      if constexpr (kThermal) {
-        free = free < 0x1p36 ? std::floor(free) : 0x1p36;  // times 1/32768: still above every limit
-        free *= table_[kHot ? mean[i] >> 11 : 0] * (1.0 / 32768);
-      }
+      if constexpr (kThermal) free = std::floor(free) * power[i];
       mobility[i] = static_cast<int>(free < 268435456.0 ? free : 268435456.0);
     }
   }
 
+  // Computes e 2^(n - 12) by the mean heat. A double of 13 bits times a power of two is exact, and so is its
+  // product with a mobility of 40 bits.
+  [[gnu::always_inline]] void powers(int begin, const Lanes16& mean, double (&power)[64]) const {
+    const int end = begin + L::kCount;
+    const int reference = flow_.mobility_reference, rate = flow_.mobility_rate;
+    for (int i = begin; i < end; ++i) {
+      const int octaves = ((kHot ? mean[i] : 0) - reference) * rate >> 6;
+      const int high = octaves < (1 << 19) - 1 ? octaves : (1 << 19) - 1;
+      const int x = high > -(1 << 21) ? high : -(1 << 21);
+      const std::uint32_t f = x & 0xFFFF;
+      const int e = static_cast<int>(4096 + (f * (43057 + (22479 * f >> 16)) >> 20));
+      const std::uint64_t exponent = (x >> 16) - 12 + 1023;  // of a double
+      power[i] = e * std::bit_cast<double>(exponent << 52);
+    }
+  }
+
   const rule::Flow& flow_;
-  const std::uint16_t* table_;
   const std::uint64_t pace_;  // mobility parameter of a sub-step
   const std::uint32_t dither_;
 };

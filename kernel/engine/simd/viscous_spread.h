@@ -94,6 +94,8 @@ class ExchangePairs {
   struct Masks {
     std::uint64_t in_run, there[4];  // this cell, the other one of a pair
     std::uint64_t pair[4], any;      // open, and one of them is in a run
+    std::uint64_t beside[2][4];      // blocked cells beside the axis pairs
+    bool walls;                      // any of them beside a pair
   };
 
   [[gnu::always_inline]] TileRow deep_words(int y, int z) const {
@@ -123,7 +125,17 @@ class ExchangePairs {
     m.pair[3] = ~(own | front_left | (left & front));
     m.any = 0;
     for (int axis = 0; axis < 4; ++axis) m.any |= m.pair[axis] &= m.in_run | m.there[axis];
-    return m.any != 0;
+    if (m.any == 0) return false;
+
+    // The axis pairs carry the share of diagonals to blocked cells.
+    const std::uint64_t back = v_.blocked(w, y, z_ - 1);
+    const std::uint64_t back_right = cpu::from_right(back, v_.blocked(w + 1, y, z_ - 1));
+    const std::uint64_t beside[2][4] = {{front, front_right, back, back_right},
+                                        {left, right, front_left, front_right}};
+    m.walls = false;
+    for (int axis = 0; axis < 2; ++axis)
+      for (int i = 0; i < 4; ++i) m.walls |= (m.beside[axis][i] = beside[axis][i] & m.pair[axis]) != 0;
+    return true;
   }
 
   struct Cell {
@@ -183,9 +195,14 @@ class ExchangePairs {
     if constexpr (kDiagonal) most = L::template shift_right<2>(most);
     const M gate = L::from_bits(moves << (part * L::kCount), part);
 
+    V beside = L::zero();
+    if (!kDiagonal && m.walls)
+      for (const std::uint64_t blocked : m.beside[axis])
+        beside = beside + L::keep(L::from_bits(blocked, part), L::set(1));
     // (c drive + (R << 10)) >> 26 is computed as (c drive >> 8, and R << 2) >> 18, since the fine bits of c
     // only carry. Diagonals do likewise. In 32 bits a lane, the lower half is not kept.
-    const V drive = driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 724 : 512)), gate, own.bed, bed);
+    const V drive =
+        driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 724 : 512)), gate, own.bed, bed, beside);
     const V fine = L::high(c.fine, drive), low = L::low(c.coarse, drive) + fine;
     const V high = L::add_if(L::less(low, fine), L::high(c.coarse, drive), L::set(1));
     constexpr int kShift = kDiagonal ? 4 : 2;
@@ -233,16 +250,19 @@ class ExchangePairs {
         L::select(over, L::set(0xFF00), L::template shift_left<4>(low) & L::set(0xFF00))};
   }
 
-  // Returns the drop in 1/8192 cell, less on a slope. Most beds are level, or none, and then nothing is
-  // looked up.
+  // Returns the drop in 1/8192 cell, less on a slope, and more beside blocked cells. Most beds are level, or
+  // none, and then nothing is looked up.
   template <bool kDiagonal>
-  [[gnu::always_inline]] V driven(V drop, M gate, V bed, V other) const {
+  [[gnu::always_inline]] V driven(V drop, M gate, V bed, V other, V beside) const {
     const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
     const M none = L::equal(L::min(bed, other), L::zero());
     const V steps = L::keep(gate, L::select(none, L::zero(), L::min(between, L::set(16))));
-    if (!L::nonzero(steps)) return L::template shift_left<4>(drop);
-    return L::high(L::template shift_left<6>(drop),
-                   L::lookup(slope_[kDiagonal], L::template shift_left<11>(steps)));
+    const bool walls = !kDiagonal && L::nonzero(beside);
+    if (!L::nonzero(steps) && !walls) return L::template shift_left<4>(drop);
+    const V at = L::template shift_left<11>(steps);
+    V slope = L::lookup(slope_[kDiagonal], at);
+    if (walls) slope = slope + L::low(beside, L::template shift_right<3>(L::lookup(slope_[1], at)));
+    return L::high(L::template shift_left<6>(drop), slope);
   }
 
   // Returns heads in 32 bits.

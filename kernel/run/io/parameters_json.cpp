@@ -102,7 +102,9 @@ json flow_json(const rule::Flow& flow) {
             {"substeps", flow.viscous.substeps},
             {"substeps_max", flow.viscous.substeps_max}}},
           {"thermal_viscosity", flow.thermal_viscosity},
-          {"mobility_table", flow.mobility_table}};
+          {"mobility_table", flow.mobility_table},
+          {"mobility_reference", flow.mobility_reference},
+          {"mobility_rate", flow.mobility_rate}};
 }
 
 }  // namespace

@@ -22,9 +22,16 @@
 namespace voxmelt::hwmodel {
 namespace {
 
+// Loads a scene in which passes of the stream may have several steps.
+scene::Scene load(const std::string& name) {
+  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+  scene.parameters.heat.visibility_every = 8;
+  return scene;
+}
+
 struct Melt {
   explicit Melt(const std::string& name, std::uint32_t ahead)
-      : scene(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {})),
+      : scene(load(name)),
         before(scene.parameters, std::move(scene.initial), *run::implementations().find("reference")) {
     ahead -= scene.parameters.heat.visibility_age(ahead);
     while (before.step_number() < ahead) before.step();

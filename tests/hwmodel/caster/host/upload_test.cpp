@@ -144,7 +144,7 @@ TEST(Upload, AForgottenBrickIsFoundWithItsStep) {
     std::vector<SentBrick> others;
     std::int64_t at = 0;
     {
-      Melt melt("bunny_small", kSmall);
+      Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
       Uploader uploader{configuration};
       melt.send(uploader);
       for (int step = 1; step <= 3; ++step) {
@@ -162,7 +162,7 @@ TEST(Upload, AForgottenBrickIsFoundWithItsStep) {
     ASSERT_FALSE(std::all_of(others.begin(), others.end(), of_levels));
     const std::size_t every = std::max<std::size_t>(others.size() / 12, 1);
     for (std::size_t i = 0; i < others.size(); i += every) {
-      Melt melt("bunny_small", kSmall);
+      Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
       Uploader uploader{configuration};
       uploader.plant({UploadFault::Kind::forgotten, 3, others[i]});
       melt.send(uploader);
@@ -186,7 +186,7 @@ TEST(Upload, AForgottenBrickIsFoundWithItsStep) {
 
 // Returns the bricks with other bytes that a correct uploader sends in step `at`.
 std::vector<SentBrick> bricks_sent(const Configuration& configuration, int at) {
-  Melt melt("bunny_small", kSmall);
+  Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
   Uploader uploader{configuration};
   melt.send(uploader);
   std::vector<SentBrick> sent;
@@ -210,7 +210,7 @@ TEST(Upload, AMisplacedBrickIsFoundWithItsStep) {
     ASSERT_GT(sent.size(), 8U);
     const std::size_t every = std::max<std::size_t>(sent.size() / 10, 1);
     for (std::size_t i = 0; i < sent.size(); i += every) {
-      Melt melt("bunny_small", kSmall);
+      Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
       Uploader uploader{configuration};
       uploader.plant({UploadFault::Kind::misplaced, 2, sent[i]});
       melt.send(uploader);
@@ -241,7 +241,7 @@ TEST(Upload, ABrickOfWhichTheCachesAreNotToldIsFoundInTheNextPicture) {
   for (const SentBrick& brick : sent) {
     for (const bool told : {true, false}) {
       if (told && found >= 3) continue;
-      Melt melt("bunny_small", kSmall);
+      Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
       Uploader uploader{options.configuration};
       if (!told) uploader.plant({UploadFault::Kind::untold, 1, brick});
       melt.send(uploader);
@@ -280,7 +280,7 @@ TEST(Upload, EveryLayoutHoldsTheFieldAfterEveryStep) {
       configuration.level_bits = bits;
       configuration.apron = apron;
       configuration.stall_seed = apron ? 7 : 0;
-      Melt melt("bunny_small", kSmall);
+      Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
       Uploader uploader{configuration};
       melt.send(uploader);
       for (int step = 0; step < 10; ++step) {
@@ -424,7 +424,7 @@ TEST(Upload, WhereThereIsNoRoomForMoreBricksAllIsSentAnew) {
 // Caches that forget nothing draw an old picture.
 TEST(Upload, WarmCachesDrawEachStepIfTheyForgetWhatWasSent) {
   for (const bool forgets : {true, false}) {
-    Melt melt("bunny_small", kSmall);
+    Melt melt("bunny_small", kSmall, {"heat.visibility_every=8"});
     Uploader uploader{Configuration{}};
     melt.send(uploader);
     RayCaster caster(uploader.registers(), uploader.memory(), Configuration{});

@@ -63,7 +63,7 @@ TEST(MemoryCost, OfTheViscousLawWithHeat) {
   EXPECT_EQ(memories_of("cello_viscous"),
             (std::map<StageKind, Memory>{{StageKind::conduction, {50, 50}},
                                          {StageKind::settle, {0, 115}},
-                                         {StageKind::viscous_spread, {107, 173}}}));
+                                         {StageKind::viscous_spread, {109, 176}}}));
 }
 
 TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {

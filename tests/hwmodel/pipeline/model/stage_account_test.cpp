@@ -150,10 +150,10 @@ TEST(StageAccount, UnitsOfSettle) {
   const auto units = [&] { return make_stage(StageKind::settle, design)->units(); };
   EXPECT_EQ(units().multipliers, 3);
   EXPECT_EQ(units().dividers, 2);
-  design.parameters.flow.thermal_viscosity = true;  // the table is interpolated between two temperatures
-  EXPECT_EQ(units().multipliers, 4);
+  design.parameters.flow.thermal_viscosity = true;  // a rate, two of a parabola, and the mobility itself
+  EXPECT_EQ(units().multipliers, 3 + 4);
   design.parameters.heat.enabled = true;
-  EXPECT_EQ(units().multipliers, 4 + 2 + 2 + 3 + 2);
+  EXPECT_EQ(units().multipliers, 3 + 4 + 2 + 2 + 3 + 2);
   EXPECT_EQ(units().dividers, 2 + 3);
 }
 

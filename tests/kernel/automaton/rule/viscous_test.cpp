@@ -86,11 +86,28 @@ TEST(RunColumn, MobilityIsQuadraticAndLimited) {
       ASSERT_GE(c.dead, 1);
       ASSERT_TRUE(c.in_run);
     }
-  // Thermal viscosity makes it half at 16384.
-  Flow warm = gentle;
+}
+
+// The mobility doubles in an eighth of the range (65536 x 64 / 512 = 8192). By hand from docs/automaton.md,
+// half an octave has f = 32768, 22479 f >> 16 = 11239, f x 54296 >> 20 = 1696: 5792 / 4096 = 1.41406.
+TEST(Viscous, MobilityDoublesWithHeat) {
+  Flow warm = flow_of(1);
   warm.thermal_viscosity = true;
-  warm.mobility_table.fill(16384);
-  EXPECT_EQ(run_column(2 * kOne, 2, 0, 0, warm).mobility, 149131);
+  warm.mobility_reference = 20000;
+  warm.mobility_rate = 512;
+  const auto at = [&](std::int32_t h) { return warmed(1 << 20, h, warm); };
+  EXPECT_EQ(at(20000), 1 << 20);
+  EXPECT_EQ(at(20000 + 8192), 1 << 21);
+  EXPECT_EQ(at(20000 - 8192), 1 << 19);
+  EXPECT_EQ(at(20000 + 4096), 1482752);  // 2^20 x 5792 / 4096
+  EXPECT_EQ(at(20000 - 4096), 741376);
+  for (std::int32_t h = 0; h < 65536; ++h)
+    ASSERT_NEAR(static_cast<double>(at(h)) / std::exp2(20 + (h - 20000) / 8192.0), 1, 0.004) << h;
+  // Eight octaves above the reference and 32 below it, the law ends.
+  warm.mobility_rate = 32767;
+  EXPECT_EQ(at(65535), (std::int64_t{8191} << 20) >> 5);
+  EXPECT_EQ(at(0), 0);
+  EXPECT_EQ(warmed((std::int64_t{1} << 40) - 1, 0, warm), 255);
 }
 
 // The limit is a fifth of a cell, and less by depth. An overfull run is stiffer.
@@ -235,26 +252,37 @@ TEST(ViscousFlow, ADeepGiverHoldsBack) {
 
 TEST(SlopeFactor, Value) {
   for (const bool diagonal : {false, true}) {
-    EXPECT_EQ(slope_factor(40, 40, diagonal), 16384);
-    EXPECT_EQ(slope_factor(40, kNoBed, diagonal), 16384) << "air has no slope";
-    EXPECT_EQ(slope_factor(40, 4000, diagonal), slope_factor(40, 56, diagonal)) << "a cliff is as steep as 1";
-    EXPECT_EQ(slope_factor(40, 43, diagonal), slope_factor(43, 40, diagonal));
+    EXPECT_EQ(slope_factor(40, 40, diagonal, 0), 16384);
+    EXPECT_EQ(slope_factor(40, kNoBed, diagonal, 0), 16384) << "air has no slope";
+    EXPECT_EQ(slope_factor(40, 4000, diagonal, 0), slope_factor(40, 56, diagonal, 0))
+        << "a cliff is as steep as 1";
+    EXPECT_EQ(slope_factor(40, 43, diagonal, 0), slope_factor(43, 40, diagonal, 0));
   }
-  EXPECT_EQ(slope_factor(40, 48, false), 10923);
-  EXPECT_EQ(slope_factor(40, 56, false), 5461);
-  EXPECT_EQ(slope_factor(40, 48, true), 9511);
-  EXPECT_EQ(slope_factor(40, 56, true), 1820);
+  EXPECT_EQ(slope_factor(40, 48, false, 0), 10923);
+  EXPECT_EQ(slope_factor(40, 56, false, 0), 5461);
+  EXPECT_EQ(slope_factor(40, 48, true, 0), 9511);
+  EXPECT_EQ(slope_factor(40, 56, true, 0), 1820);
   for (std::int32_t t = 0; t <= 16; ++t) {
     const double s2 = t * t / 256.0;
-    EXPECT_NEAR(slope_factor(0, t, false), 16384 / (1 + 2 * s2), 0.5);
-    EXPECT_NEAR(slope_factor(0, t, true), 16384 / std::pow(1 + s2 + s2 * s2, 2), 0.5);
+    EXPECT_NEAR(slope_factor(0, t, false, 0), 16384 / (1 + 2 * s2), 0.5);
+    EXPECT_NEAR(slope_factor(0, t, true, 0), 16384 / std::pow(1 + s2 + s2 * s2, 2), 0.5);
+  }
+}
+
+// A blocked cell beside an axis pair adds an eighth of the diagonal's factor. All four of them make a channel
+// of one cell, which carries what the axis and two diagonals carry in a sheet: 2/3 + 2/3 x 4/8 = 1.
+TEST(SlopeFactor, AnAxisHasTheShareOfBlockedDiagonals) {
+  for (int blocked = 0; blocked <= 4; ++blocked) {
+    EXPECT_EQ(slope_factor(40, 40, false, blocked), 16384 + 2048 * blocked);
+    EXPECT_EQ(slope_factor(40, 56, false, blocked), 5461 + 227 * blocked);  // 1820 / 8 = 227.5
+    EXPECT_EQ(slope_factor(40, 56, true, blocked), 1820);
   }
 }
 
 // On a plane of slope S, a film's axes carry 2/3 and its diagonals 1/3, and the sum goes straight down.
 TEST(SlopeFactor, AFilmCarriesNusseltsFluxInEveryDirection) {
   const auto factor = [](double between, bool diagonal) {
-    return slope_factor(0, static_cast<std::int32_t>(std::lround(16 * std::abs(between))), diagonal) /
+    return slope_factor(0, static_cast<std::int32_t>(std::lround(16 * std::abs(between))), diagonal, 0) /
            16384.0;
   };
   for (const std::array<double, 2> slope :

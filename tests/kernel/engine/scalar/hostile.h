@@ -92,6 +92,8 @@ inline Parameters hostile_parameters(Random& random, rule::Law law, Grid g) {
   p.flow.thermal_viscosity = random.one_in(2);
   for (std::uint16_t& entry : p.flow.mobility_table)
     entry = static_cast<std::uint16_t>(random.any({0, 32768, 65535, random.below(65536)}));
+  p.flow.mobility_reference = static_cast<std::uint16_t>(random.any({0, 65535, random.below(65536)}));
+  p.flow.mobility_rate = static_cast<std::uint16_t>(random.any({0, 64, 512, 32767, random.below(32768)}));
 
   const auto region = [&]() -> rule::Region {
     return {{random.between(-16, 16 * g.x + 16), random.between(-16, 16 * g.y + 16),

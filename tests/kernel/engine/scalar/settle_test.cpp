@@ -163,23 +163,30 @@ TEST(Settle, LayersStayLayers) {
   }
 }
 
-// Two cells of 2047 and 2048 have the mean 2047.5. It takes entry 0 of the table, whatever the dither.
+// Two cells of 2047 and 2048 have the mean 2047.5, which is 2047 whatever the dither. A degree has 512/65536
+// octaves, so the flow of 191.8 (raw is 2095054, c 1047527 and the drive 12288) is one less below 2048.
 TEST(Settle, MobilityGoesByTheMeanWithoutDither) {
   Parameters p = with_heat();
   p.flow.thermal_viscosity = true;
-  p.flow.mobility_table.fill(32768);
-  p.flow.mobility_table[0] = 0;
-  for (const bool warmer : {false, true})
-    for (std::uint32_t s = 0; s < 4; ++s) {
-      Volume v(Grid{2, 2, 1});
-      put(v, 0, 0, 0, 4096, 0, 2047);
-      put(v, 0, 1, 0, 4096, 0, warmer ? 2049 : 2048);
-      state::Ledger ledger = state::Ledger::open(v);
-      Reference reference(p, v.grid);
-      reference.run(Phase::excess, step::Moment(s), nullptr, v, ledger);
-      reference.run(Phase::spread, step::Moment(s), nullptr, v, ledger);
-      EXPECT_EQ(v.amount[v.at(1, 0, 0)] > 0, warmer) << "step " << s;
-    }
+  p.flow.viscous.mobility = 134083510;
+  p.flow.mobility_reference = 2048;
+  p.flow.mobility_rate = 32767;
+  const auto flow = [&](std::uint16_t lower, std::uint16_t upper, std::uint32_t s) {
+    Volume v(Grid{2, 2, 1});
+    put(v, 0, 0, 0, 4096, 0, lower);
+    put(v, 0, 1, 0, 4096, 0, upper);
+    state::Ledger ledger = state::Ledger::open(v);
+    Reference reference(p, v.grid);
+    reference.run(Phase::excess, step::Moment(s), nullptr, v, ledger);
+    reference.run(Phase::spread, step::Moment(s), nullptr, v, ledger);
+    return int{v.amount[v.at(1, 0, 0)]};
+  };
+  for (std::uint32_t s = 0; s < 4; ++s) {
+    const int cold = flow(2047, 2047, s), warm = flow(2048, 2048, s);
+    EXPECT_LT(cold, warm) << "step " << s;
+    EXPECT_EQ(flow(2047, 2048, s), cold) << "step " << s;
+    EXPECT_EQ(flow(2047, 2049, s), warm) << "step " << s;
+  }
 }
 
 }  // namespace
