@@ -47,6 +47,7 @@ int run_digest(const DigestOptions& options) {
   Watch watch;
   watch.look(simulation.volume(), simulation.steps_done());
   warn(scene, options.common, watch.warnings(simulation));
+  warn_of_limit(scene, options.common, simulation);
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   const std::string drift = drift_text(simulation.drift());
   if (drift.empty()) return kDone;

@@ -47,6 +47,7 @@ int run_export(const ExportOptions& options) {
     simulation.step();
     stop_if_interrupted();
   }
+  warn_of_limit(scene, options.common, simulation);
 
   const state::Volume& volume = simulation.volume();
   io::find_format(options.format)->write(volume, out.partial(), stop_if_interrupted);

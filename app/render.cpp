@@ -191,6 +191,7 @@ int run_render(RenderOptions options) {
 
   run::Simulation simulation = make_simulation(scene, options.common);
   run_to(simulation, options);
+  warn_of_limit(scene, options.common, simulation);
   const auto report = [&] { return report_json(scene, options.common, simulation, {}); };
   const render::Setting setting = options.setting == "fast"   ? render::Setting::fast
                                   : options.setting == "best" ? render::Setting::best

@@ -132,6 +132,11 @@ std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::
       law.counts_substeps() ? fmt::format("substeps_max above {}", law.substeps_max) : "substeps = \"auto\"");
 }
 
+void warn_of_limit(scene::Scene& scene, const Common& common, const run::Simulation& simulation) {
+  const std::string text = limit_text(simulation.ledger().limit, simulation.parameters().flow.viscous);
+  if (!text.empty()) warn(scene, common, {text});
+}
+
 std::string drift_text(const state::Drift& drift) {
   std::string text;
   const auto add = [&](const char* name, Sum value) {

@@ -28,6 +28,9 @@ bool says_complete(const std::filesystem::path& folder);
 // Says what the limit of the mobility withholds, if that is much. Otherwise the text is empty.
 std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::ViscousLaw& law);
 
+// Warns of that, where a command has no lines of its own for it.
+void warn_of_limit(scene::Scene& scene, const Common& common, const run::Simulation& simulation);
+
 // Lists what does not balance, as in "mass +1, heat -3". The text is empty if all ledgers balance.
 std::string drift_text(const state::Drift& drift);
 

@@ -18,7 +18,8 @@ constexpr double kLargestKappa = 71;  // mobility fits 36 bits
 constexpr std::uint64_t kLargestMobility = (std::uint64_t{1} << 36) - 1;
 constexpr double kLargestEntry = 2;  // largest entry of the table of mobilities: 65535 / 32768
 constexpr std::uint16_t kMostSubsteps = 1024;
-constexpr double kLargestYield = 255;  // x 65536 fits 24 bits
+constexpr std::uint16_t kUsualSubsteps = 64;  // at most so many if the scene says nothing
+constexpr double kLargestYield = 255;         // x 65536 fits 24 bits
 
 Range amount() { return at_most(kLargestAmount); }
 
@@ -81,8 +82,8 @@ rule::PaperLaw read_paper(Reader& reader) {
 
 // Reads a number, or "auto", which gives 0.
 std::uint16_t read_substeps(Reader& reader) {
-  if (!reader.has("substeps") || reader.kind("substeps") != Value::Kind::text)
-    return reader.integer("substeps", 1, kMostSubsteps, 1);
+  if (!reader.has("substeps")) return 0;
+  if (reader.kind("substeps") != Value::Kind::text) return reader.integer("substeps", 1, kMostSubsteps, 1);
   reader.choice("substeps", {"auto"});
   return 0;
 }
@@ -96,48 +97,68 @@ rule::ViscousLaw read_viscous(Reader& reader) {
       static_cast<std::uint32_t>(std::lround(reader.number("yield", at_most(kLargestYield), 0.0) * 65536));
   law.stiffness = reader.integer<std::uint8_t>("stiffness", 1, 8, 8);
   law.substeps = read_substeps(reader);
-  law.substeps_max = reader.integer("substeps_max", 1, kMostSubsteps, kMostSubsteps);
+  law.substeps_max = reader.integer("substeps_max", 1, kMostSubsteps, kUsualSubsteps);
   reader.finish();
   return law;
 }
 
-// Doubles the factor that the table multiplies, unless that exceeds its range. The rule itself cuts twice the
-// paper's largest share, so that law never wants more.
-bool double_mobility(rule::Flow& flow) {
-  if (flow.law == rule::Law::viscous) {
-    if (flow.viscous.mobility > kLargestMobility / 2) return false;
-    flow.viscous.mobility *= 2;
-    return true;
-  }
-  if (flow.paper.share > rule::largest_share(flow.paper.neighbours) / 2) return false;
-  flow.paper.share = static_cast<std::uint16_t>(2 * flow.paper.share);
-  return true;
-}
+// Mobility doubles every `doubling` of temperature, and is 1 at `reference`.
+struct ThermalLaw {
+  double reference, doubling;
+  double factor(double temperature) const { return std::exp2((temperature - reference) / doubling); }
+};
 
-// Reads the table of mobilities. Mobility doubles every `doubling` of temperature and is 1 at `reference`. An
-// entry of the table is at most twice its unit. If the hottest liquid wants more, the unit stands for 2, 4,
-// ... times that mobility.
-void read_thermal(Reader& reader, rule::Flow& flow, std::vector<std::string>& warnings) {
-  const double reference = reader.number("reference", fraction());
-  const double doubling = reader.number("doubling", at_least(0.001).at_most(1));
-  flow.thermal_viscosity = true;
-  const auto entries = flow.mobility_table.size();
-  const auto factor = [&](std::size_t i) {
-    return std::exp2(((static_cast<double>(i) + 0.5) / static_cast<double>(entries) - reference) / doubling);
-  };
-  const double wanted = factor(entries - 1);
-  double unit = 1;
-  while (wanted > kLargestEntry * unit && double_mobility(flow)) unit *= 2;
-  if (flow.law == rule::Law::viscous && wanted > kLargestEntry * unit)
+// The viscous law has its mobility at a reference that is as hot as the range of the mobility lets it be. So
+// what is colder is a part of it, and keeps all its digits.
+void read_thermal_viscous(const ThermalLaw& law, rule::Flow& flow, std::vector<std::string>& warnings) {
+  const double room =
+      std::log2(static_cast<double>(kLargestMobility) / static_cast<double>(flow.viscous.mobility));
+  const double hottest = std::min(1.0, law.reference + law.doubling * std::max(0.0, room));
+  flow.mobility_reference = static_cast<std::uint16_t>(std::floor(65535 * hottest));
+  flow.mobility_rate = static_cast<std::uint16_t>(std::lround(64 * (65536.0 / 65535) / law.doubling));
+  const double unit = law.factor(flow.mobility_reference / 65535.0);
+  flow.viscous.mobility = std::llround(static_cast<double>(flow.viscous.mobility) * unit);
+  const double most = 256 * unit;  // rule::warmed has eight octaves above its reference
+  if (law.factor(1) > most)
     warnings.push_back(
         fmt::format("flow.thermal: the mobility wants to be {:.3g} times that at the reference, and stops at "
                     "{:.3g} times, "
-                    "from temperature {:.3g} on; kappa times this factor is at most {}",
-                    wanted, kLargestEntry * unit, reference + doubling * std::log2(kLargestEntry * unit),
-                    kLargestEntry * kLargestKappa));
+                    "from temperature {:.3g} on",
+                    law.factor(1), most, law.reference + law.doubling * std::log2(most)));
+}
+
+// The paper's law has a table of 32 mobilities over the range of temperatures. An entry is at most twice its
+// unit. If the hottest liquid wants more, the unit stands for 2, 4, ... times that mobility. The rule itself
+// cuts twice the paper's largest share, so no more is wanted.
+void read_thermal_paper(const ThermalLaw& law, rule::Flow& flow, std::vector<std::string>& warnings) {
+  const auto entries = flow.mobility_table.size();
+  const double band = 1 / static_cast<double>(entries);
+  const auto factor = [&](std::size_t i) { return law.factor((static_cast<double>(i) + 0.5) * band); };
+  double unit = 1;
+  while (factor(entries - 1) > kLargestEntry * unit &&
+         flow.paper.share <= rule::largest_share(flow.paper.neighbours) / 2) {
+    flow.paper.share = static_cast<std::uint16_t>(2 * flow.paper.share);
+    unit *= 2;
+  }
   for (std::size_t i = 0; i < entries; ++i)
     flow.mobility_table[i] =
         static_cast<std::uint16_t>(std::lround(std::min(65535.0, 32768 * factor(i) / unit)));
+  if (law.doubling < band)
+    warnings.push_back(
+        fmt::format("flow.thermal: the paper's law has 32 mobilities over the range of temperatures, and "
+                    "with doubling = {} "
+                    "each is {:.3g} times the one before; law = \"viscous\" has no steps",
+                    law.doubling, std::exp2(band / law.doubling)));
+}
+
+void read_thermal(Reader& reader, rule::Flow& flow, std::vector<std::string>& warnings) {
+  const double reference = reader.number("reference", fraction());
+  const ThermalLaw law{reference, reader.number("doubling", at_least(0.002).at_most(1))};
+  flow.thermal_viscosity = true;
+  if (flow.law == rule::Law::viscous)
+    read_thermal_viscous(law, flow, warnings);
+  else
+    read_thermal_paper(law, flow, warnings);
   reader.finish();
 }
 

@@ -22,6 +22,7 @@ constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
 constexpr double kLargestExchange =
     0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
+constexpr double kSmallestExchange = 1 / 65536.0;  // less is nothing in the rule
 constexpr double kLargestRadius = 8192;
 constexpr double kLargestDirection = 1e6;
 constexpr std::uint32_t kLastStep = 0xFFFFFFFF;
@@ -50,9 +51,14 @@ void read_conduction(Reader& reader, rule::Heat& heat, std::vector<std::string>&
   if (asked == 26) heat.weight_corner = weight(gamma, 3);
 }
 
-void read_air(Reader& reader, rule::Heat& heat, int ny) {
+void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>& warnings) {
   heat.air = true;
-  heat.air_exchange = to_factor16(reader.number("exchange", above(0).at_most(kLargestExchange)));
+  const double exchange = reader.number("exchange", at_least(kSmallestExchange).at_most(kLargestExchange));
+  heat.air_exchange = to_factor16(exchange);
+  const double taken = heat.air_exchange / 65536.0;
+  if (std::abs(taken / exchange - 1) > 0.02)
+    warnings.push_back(
+        fmt::format("heat.air.exchange = {} is taken as {:.3g}, a whole number of 1/65536", exchange, taken));
   const double bottom = reader.number("bottom", fraction());
   const double top = reader.number("top", fraction(), bottom);
   for (int y = 0; y < ny; ++y)
@@ -84,6 +90,7 @@ rule::SourceKey read_source_key(Reader& reader, const rule::SourceKindRow& kind,
 
 rule::HeatSource read_source(Reader& reader) {
   std::vector<std::string> kinds;
+  kinds.reserve(rule::kSourceKinds.size());
   for (const rule::SourceKindRow& row : rule::kSourceKinds) kinds.emplace_back(row.name);
   const rule::SourceKindRow& kind = rule::kSourceKinds[reader.choice("kind", kinds, 0)];
   rule::HeatSource source{.keys = {}, .kind = kind.kind};
@@ -129,9 +136,9 @@ rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings) {
   read_conduction(*reader, heat, warnings);
   heat.convection = static_cast<std::uint16_t>(
       std::min<long>(32767, std::lround(reader->number("convection", at_most(0.5), 0.0) * 65536)));
-  heat.visibility_every = reader->integer<std::uint32_t>("visibility_every", 1, 1024, 8);
+  heat.visibility_every = reader->integer<std::uint32_t>("visibility_every", 1, 1024, 1);
   heat.rays_per_face = read_rays(*reader);
-  if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny);
+  if (std::optional<Reader> air = reader->table("air")) read_air(*air, heat, ny, warnings);
   reader->finish();
 
   heat.sources = read_heat_sources(root);

@@ -23,6 +23,7 @@ thickness = 2
 melting_point = 0.5
 [heat]
 gamma = 0.15
+visibility_every = 8
 [[heat_source]]
 kind = "point"
 at = [14, 12, 14]

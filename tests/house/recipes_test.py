@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-WANTED = {"scene", "field", "key", "rule", "kernel", "instruction set", "stage", "format", "subcommand", "look", "kind of heat source", "ledger term", "device"}
+WANTED = {"scene", "field", "key", "rule", "kernel", "instruction set", "stage", "format", "subcommand", "look", "kind of heat source", "ledger term", "device", "accuracy case"}
 
 
 def known_tests(build):

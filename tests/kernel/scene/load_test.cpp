@@ -1,6 +1,5 @@
 // The scene loader knows defaults, units, --set and extends.
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -78,28 +77,31 @@ TEST(Load, TheWholeRangeMayBeUsed) {
   EXPECT_EQ(sun.parameters.heat.sources.at(0).keys.at(0).direction.z, 16384);
 }
 
-// The mobility wanted at the hottest entry, temperature 63/64, is 2^4.84375 = 28.7 times that at the
-// reference. The table holds it in units of 16 times. At kappa 71 nothing can be doubled, and it stops at 2.
+// The viscous law has 5 octaves from 0.5 to 1, so its mobility is 32 times that at the reference. A rate is
+// 64 x 65536 / 65535 / 0.1. At kappa 71 the reference stays, and eight octaves above it are enough. With
+// doubling 0.05 they are not. The paper's law wants 2^4.84375 = 28.7 at its hottest entry, temperature 63/64.
 TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
   const SceneFolder folder;
-  const auto flow = [&](double kappa, const char* law = "viscous") {
-    return folder.load_text(
-        kLeast + "[flow]\nlaw = \"" + law + "\"\n[flow.thermal]\nreference = 0.5\n" + "doubling = 0.1\n" +
-        (law == std::string("viscous") ? "[flow.viscous]\nkappa = " + std::to_string(kappa) + "\n"
-                                       : "[flow.paper]\nshare = " + std::to_string(kappa) + "\n"));
+  const auto flow = [&](double kappa, const char* law = "viscous", const char* doubling = "0.1") {
+    return folder.load_text(kLeast + "[flow]\nlaw = \"" + law +
+                            "\"\n[flow.thermal]\nreference = 0.5\ndoubling = " + doubling + "\n" +
+                            (law == std::string("viscous")
+                                 ? "[flow.viscous]\nkappa = " + std::to_string(kappa) + "\n"
+                                 : "[flow.paper]\nshare = " + std::to_string(kappa) + "\n"));
   };
   const Scene free = flow(1);
   EXPECT_TRUE(free.warnings.empty());
-  EXPECT_EQ(free.parameters.flow.viscous.mobility, std::uint64_t{16} * 954437177);  // 2^32 x 2/9, rounded
-  for (const auto& [entry, factor] : {std::pair(31, 28.71535), {16, 1.114387}, {8, 0.196998}})
-    EXPECT_NEAR(free.parameters.flow.mobility_table[static_cast<std::size_t>(entry)] / 2048.0, factor,
-                0.0003);
-  const Scene cut = flow(71);
+  EXPECT_EQ(free.parameters.flow.viscous.mobility, std::uint64_t{32} * 954437177);  // 2^32 x 2/9, rounded
+  EXPECT_EQ(free.parameters.flow.mobility_reference, 65535);
+  EXPECT_EQ(free.parameters.flow.mobility_rate, 640);
+  const Scene runny = flow(71);
+  EXPECT_TRUE(runny.warnings.empty());
+  EXPECT_NEAR(runny.parameters.flow.mobility_reference, 65535 * 0.502018, 1);  // 2^36 / (2^32 x 2/9 x 71)
+  const Scene cut = flow(71, "viscous", "0.05");
   ASSERT_EQ(cut.warnings.size(), 1u);
   EXPECT_EQ(cut.warnings[0],
-            "flow.thermal: the mobility wants to be 28.7 times that at the reference, and stops at 2 times, "
-            "from temperature 0.6 on; kappa times this factor is at most 142");
-  EXPECT_EQ(cut.parameters.flow.mobility_table[31], 65535);
+            "flow.thermal: the mobility wants to be 1.02e+03 times that at the reference, and stops at 260 "
+            "times, from temperature 0.901 on");
   // A share of 1/32 may grow to 1/8 before it would exceed 1/5. The rule allows four times as much.
   const Scene paper = flow(1 / 32.0, "paper");
   EXPECT_TRUE(paper.warnings.empty());
@@ -109,6 +111,17 @@ TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
 
 // A checkerboard's difference is multiplied by 1 - 12 gamma / pi, which is -0.910 at gamma 0.5 and -0.5 at pi
 // / 8.
+TEST(Load, AnExchangeThatIsRoundedIsWarnedOf) {
+  const SceneFolder folder;
+  const auto scene = [&](const char* exchange) {
+    return folder.load_text(kLeast + "[heat.air]\nexchange = " + exchange + "\nbottom = 1\n");
+  };
+  EXPECT_EQ(
+      scene("2e-5").warnings,  // 1.31 of 65536
+      std::vector<std::string>{"heat.air.exchange = 2e-05 is taken as 1.53e-05, a whole number of 1/65536"});
+  EXPECT_TRUE(scene("0.001").warnings.empty());  // 65.5
+}
+
 TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
   const SceneFolder folder;
   const auto scene = [&](const char* gamma, const char* neighbours) {
@@ -280,6 +293,7 @@ TEST(Load, SubstepsOfTheViscousLaw) {
   };
   EXPECT_EQ(law("substeps=7\n").substeps, 7);
   EXPECT_EQ(law("substeps='auto'\n").substeps, 0);
+  EXPECT_EQ(law("").substeps, 0);
   EXPECT_EQ(law("substeps='auto'\nsubsteps_max=16\n").substeps_max, 16);
 }
 
@@ -292,8 +306,8 @@ TEST(Load, MobilityOfTheViscousLaw) {
   EXPECT_EQ(flow.viscous.mobility, 19088744u);  // 2^32 x (2/9) x 0.02 = 19088743.5
   EXPECT_EQ(flow.viscous.yield, 65536u);
   EXPECT_EQ(flow.viscous.stiffness, 1);
-  EXPECT_EQ(flow.viscous.substeps, 1);
-  EXPECT_EQ(flow.viscous.substeps_max, 1024);
+  EXPECT_EQ(flow.viscous.substeps, 0);
+  EXPECT_EQ(flow.viscous.substeps_max, 64);
 }
 
 TEST(Load, ClearIsANumberOrThree) {

@@ -191,7 +191,9 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "substeps",
                           "substeps_max",
                           "thermal_viscosity",
-                          "mobility_table"})
+                          "mobility_table",
+                          "mobility_reference",
+                          "mobility_rate"})
     EXPECT_TRUE(names(json, key)) << key;
   std::string dense;
   for (const char c : json)
