@@ -35,7 +35,12 @@ class Samples {
     across_[count_] = static_cast<std::int32_t>(across);
     down_[count_++] = static_cast<std::int32_t>(down);
   }
+  // The last packet is filled up with the last sample. A place of an earlier tile may lie outside of what the
+  // data of this one are narrowed to.
   void draw(const PictureData& data, const Packets& packets) {
+    if (count_ == 0) return;
+    std::fill_n(across_.begin() + static_cast<std::ptrdiff_t>(count_), kMostLanes, across_[count_ - 1]);
+    std::fill_n(down_.begin() + static_cast<std::ptrdiff_t>(count_), kMostLanes, down_[count_ - 1]);
     packets.draw(data, {across_.data(), down_.data(), count_}, {red_.data(), green_.data(), blue_.data()});
   }
   // Returns the mean of kCount samples, in bytes.

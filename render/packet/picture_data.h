@@ -64,7 +64,7 @@ struct PictureData {
 };
 
 // Holds the places that packets are asked for, in picture coordinates. There is room for kMostLanes more
-// places, which hold any place of the picture. There is room for as much more light, too.
+// places, which hold any place that the data are made for. There is room for as much more light, too.
 inline constexpr int kMostLanes = 16;
 struct Places {
   const std::int32_t *across, *down;

@@ -201,6 +201,31 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
   for (const int count : halved) EXPECT_GT(count, 30);
 }
 
+int packets_not_full = 0, places_elsewhere = 0;
+
+// The data of a tile are narrowed to what its rays may meet. So the lanes of its last packet that are left
+// over have rays of the tile, too: one from elsewhere may begin in the midst of matter, and lead anywhere.
+TEST(PictureOfPackets, LanesThatAreLeftOverStayInTheirTile) {
+  const state::Grid grid{40, 30, 33};
+  const render::Picture picture = [&] {
+    render::Picture made;
+    made.update(test::ball_and_puddle(grid), {}, {}, test::floor_terrain(grid), 1);
+    return made;
+  }();
+  render::Packets watched = render::best_packets();
+  watched.draw = [](const render::PictureData& data, render::Places places, render::PressedLight to) {
+    const std::size_t last = places.count - 1;
+    for (std::size_t i = places.count; i < places.count + render::kMostLanes; ++i)
+      places_elsewhere +=
+          places.across[i] != places.across[last] || places.down[i] != places.down[last] ? 1 : 0;
+    packets_not_full += places.count % render::kMostLanes != 0 ? 1 : 0;
+    render::best_packets().draw(data, places, to);
+  };
+  picture.draw(test::small_camera(grid), render::Setting::normal, 1, watched);
+  EXPECT_GT(packets_not_full, 5);
+  EXPECT_EQ(places_elsewhere, 0);
+}
+
 // The picture is the same if some bricks are taken over, or all.
 TEST(PictureOfPackets, TakesOverChangedBricks) {
   const state::Grid grid{40, 30, 33};
