@@ -44,12 +44,10 @@ double rms_x(const std::vector<double>& depth) {
 }
 
 Trial channel(const Conditions& conditions, double kappa, int length, int height, int width,
-              const std::function<double(int x)>& depth) {
-  return {conditions,
-          "flow",
-          {fmt::format("grid.size=[{},{},{}]", length, height, width),
-           fmt::format("flow.viscous.kappa={}", kappa)},
-          [&](state::Volume& v) {
+              const std::function<double(int x)>& depth, std::vector<std::string> sets = {}) {
+  sets.push_back(fmt::format("grid.size=[{},{},{}]", length, height, width));
+  sets.push_back(fmt::format("flow.viscous.kappa={}", kappa));
+  return {conditions, "flow", std::move(sets), [&](state::Volume& v) {
             for (int z = 0; z < width; ++z)
               for (int x = 0; x < length; ++x) put_column(v, x, z, depth(x));
           }};
@@ -217,8 +215,8 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
   chart.curves.push_back(std::move(exact));
   std::optional<double> first_height;
   for (const double kappa : {0.001, 0.01, 0.1}) {
-    Trial trial =
-        channel(conditions, kappa, kChannel, kHigh + 2, kWide, [&](int x) { return x < kLong ? kHigh : 0.; });
+    Trial trial = channel(conditions, kappa, kChannel, kHigh + 2, kWide,
+                          [&](int x) { return x < kLong ? kHigh : 0.; }, {"flow.viscous.substeps_max=1024"});
     const std::string setting = fmt::format("kappa {:g}", kappa);
     trial.run_to(step_at(1 / kappa));
     const double middle = mean_x(middle_row(Columns(trial.volume())));

@@ -157,7 +157,7 @@ Outcome measure_melting_film(const Conditions& conditions) {
         if (conditions.quick && (melts || slope != 0.25)) continue;
         Row row = MeltingFilm{slope, depth, melts}.measure(conditions);
         // A cell that melts is thicker than the thinnest film on the gentlest slope. Its drops are reported.
-        if (!(melts && slope == 0.1 && depth == 0.5)) row.gate = 0.07;
+        if (!(melts && slope == 0.1 && depth == 0.5)) row.gate = 0.05;
         outcome.rows.push_back(std::move(row));
       }
   return outcome;
@@ -310,7 +310,7 @@ Outcome measure_blob(const Conditions& conditions) {
                               .quantity = "way aside over the exact way along",
                               .value = aside / expected,
                               .measure = Measure::absolute,
-                              .gate = 0.02,
+                              .gate = 0.025,
                               .speed = trial.speed()});
       if (slope != 0.25 || angle == 0) chart.curves.push_back(std::move(curve));
     }

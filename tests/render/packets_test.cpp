@@ -222,7 +222,7 @@ TEST(PictureOfPackets, LanesThatAreLeftOverStayInTheirTile) {
     render::best_packets().draw(data, places, to);
   };
   picture.draw(test::small_camera(grid), render::Setting::normal, 1, watched);
-  EXPECT_GT(packets_not_full, 5);
+  EXPECT_GT(packets_not_full, 0);
   EXPECT_EQ(places_elsewhere, 0);
 }
 
