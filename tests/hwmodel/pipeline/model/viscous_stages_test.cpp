@@ -123,20 +123,22 @@ TEST(ViscousStages, BoundsOfTheRules) {
 }
 
 // The tallest grid is as full as can be, so every width is at its limit. An overflow would throw.
+// Hot liquid is as mobile as can be, and cold liquid as little: 2^40 becomes 255.
 TEST(ViscousStages, WidestNumbers) {
-  for (const int stiffness : {1, 8})
+  for (const bool cold : {false, true})
     for (const int height : {1, 2, 255, 256, 4096}) {
+      const int stiffness = cold ? 1 : 8;
       worlds::Random random(static_cast<std::uint64_t>(height));
       const state::Grid grid{3, height, 2};
       rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
       parameters.heat.enabled = parameters.flow.thermal_viscosity = true;
       parameters.heat.radiation = parameters.heat.air = false;
-      parameters.flow.mobility_reference = 0;
+      parameters.flow.mobility_reference = cold ? 65535 : 0;
       parameters.flow.mobility_rate = 32767;
       parameters.flow.viscous = {(std::uint64_t{1} << 36) - 1, (1 << 24) - 1,
                                  static_cast<std::uint8_t>(stiffness)};
       state::Volume full(grid);
-      worlds::fill(full, worlds::whole(grid), 65535, 0, 65535);
+      worlds::fill(full, worlds::whole(grid), 65535, 0, cold ? 0 : 65535);
       worlds::put_inert(full, 1, 0, 0, 65535);
       for (int y = 1; y < height; ++y) worlds::put(full, 2, y, 1, 0);
       const Design design{parameters, {grid, 2}};
