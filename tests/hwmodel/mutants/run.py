@@ -11,7 +11,8 @@ is an overlay of the one file that it changes. What includes that file is compil
 compile_commands.json, and linked before the libraries of the standing build.
 
 First `voxmelt verify` runs alone, on the grounds of grounds.toml, until one fails. The unit tests of a mutant
-run where verify finds nothing, or with --tests always. Where no bit is wrong, they run first. The table and what was found lie in --out.
+run where verify finds nothing, or with --tests always. Where no bit is wrong, they run first. A mutant that names
+none has those of its folder, of grounds.toml. The table and what was found lie in --out.
 """
 import argparse
 import concurrent.futures
@@ -286,7 +287,14 @@ def names_stage(mutant, found):
     return any(found.where == s or s == "channel" and found.kind == "channel" for s in stage.split(" | "))
 
 
-def judge(build, built, mutant, grounds, work, options):
+def tests_of_folder(mutant, plan):
+    """The unit tests of a mutant that names none: those of the first folder that holds its file."""
+    if mutant.get("tests"):
+        return []
+    return next((tests for folder, tests in plan["tests"].items() if mutant["file"].startswith(folder)), [])
+
+
+def judge(build, built, mutant, grounds, others, work, options):
     """Builds a mutant, where it is not in the program of many, and runs what may find it."""
     begin = time.monotonic()
     folder = work / mutant["name"]
@@ -311,6 +319,8 @@ def judge(build, built, mutant, grounds, work, options):
                 result["text"] = found.text[-600:]
         if tests and bits and (found is None or options.tests == "always"):
             result["tests"] = unit_tests(mutation, tests) or ""
+        if others and (found is None or options.tests == "always"):
+            result["tests"] = unit_tests(mutation, others) or ""
     except RuntimeError as error:
         result["error"] = str(error)
     result["seconds"] = round(time.monotonic() - begin, 1)
@@ -325,18 +335,20 @@ def grounds_of(mutant, grounds):
     return [ground for ground in grounds if mutant["class"] in BITS or ground.get("short")]
 
 
-def key_of(mutant, grounds):
-    """What a result rests on: it holds as long as this stays the same. Of the grounds: those that were run."""
-    text = json.dumps([mutant, [ground["run"] for ground in grounds]], sort_keys=True) + (ROOT / mutant["file"]).read_text()
+def key_of(mutant, runs):
+    """What a result rests on: it holds as long as this stays the same. Of the runs: those that were needed."""
+    text = json.dumps([mutant, runs], sort_keys=True) + (ROOT / mutant["file"]).read_text()
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def holds(mutant, result, grounds):
-    grounds = grounds_of(mutant, grounds)
-    if not result or result["error"]:
-        return False
-    ran = result["grounds"] if result["verify"] else len(grounds)  # what nothing found is run on new grounds, too
-    return result["key"] == key_of(mutant, grounds[:ran])
+def needed(mutant, result, plan):
+    """What had to run: the grounds up to the one that found it. What none found: all, and its folder's tests."""
+    runs = [ground["run"] for ground in grounds_of(mutant, plan["ground"])]
+    return runs[:result["grounds"]] if result["verify"] else runs + tests_of_folder(mutant, plan)
+
+
+def holds(mutant, result, plan):
+    return bool(result) and not result["error"] and result["key"] == key_of(mutant, needed(mutant, result, plan))
 
 
 def commit():
@@ -384,7 +396,7 @@ def main():
     built = None
     if options.together:
         built = together.Together(ROOT, options.out, mutants)
-        programs = {target_of(test) for m in mutants for test in m.get("tests", [])}
+        programs = {target_of(test) for m in mutants for test in m.get("tests", []) + tests_of_folder(m, plan)}
         built.build([VERIFY, *sorted(programs - {VERIFY})], options.optimise, options.jobs)
         program = built.program(VERIFY)
     sound, state = options.out / "sound.txt", f"{program} {program.stat().st_mtime_ns} {grounds}"
@@ -399,14 +411,15 @@ def main():
     lock, now, begin = threading.Lock(), commit(), time.monotonic()
 
     def one(mutant):
-        if holds(mutant, results.get(mutant["name"]), grounds) and not options.again:
+        if holds(mutant, results.get(mutant["name"]), plan) and not options.again:
             return
         if options.minutes and time.monotonic() - begin > 60 * options.minutes:
             return
         of = grounds_of(mutant, grounds)
-        result = judge(build, built, mutant, of, options.out / "work", options)
+        result = judge(build, built, mutant, of, tests_of_folder(mutant, plan), options.out / "work", options)
         ran = next((i + 1 for i, g in enumerate(of) if g["name"] == result["ground"]), len(of))
-        result |= {"key": key_of(mutant, of[:ran]), "grounds": ran, "commit": now}
+        result |= {"grounds": ran, "commit": now}
+        result["key"] = key_of(mutant, needed(mutant, result, plan))
         with lock:
             results[mutant["name"]] = result
             store.write_text(json.dumps(results, indent=1))
@@ -419,7 +432,7 @@ def main():
         list(pool.map(one, chosen))
     current = {m["name"]: results[m["name"]] for m in mutants
                if m["name"] in results and results[m["name"]]["error"]
-               or holds(m, results.get(m["name"]), grounds)}
+               or holds(m, results.get(m["name"]), plan)}
     text = report.sums(mutants, current, list(lists()))
     (options.out / "table.md").write_text(text + report.every(mutants, current))
     print(text)
