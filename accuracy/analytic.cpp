@@ -177,6 +177,10 @@ double nusselt(double slope) {
   return slope / (stretch * stretch);
 }
 
+double cylinder_film(double kappa, double flux, double angle) {
+  return std::cbrt(3 * flux / (kappa * std::sin(angle)));
+}
+
 // Solves open_area h + roofed_area (ceiling + (h - ceiling) / stiffness) = volume for h.
 double conduit_level(double volume, double open_area, double roofed_area, double ceiling, double stiffness) {
   const double squeezed = roofed_area / stiffness;

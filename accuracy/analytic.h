@@ -60,6 +60,10 @@ struct FedCurrent {
 // per cell along.
 double nusselt(double slope);
 
+// Gives the thickness, across the bed, of a film that runs down a horizontal cylinder, at `angle` radians
+// from its top: Nusselt's film on the slope of that place. `flux` per width and step runs down this side.
+double cylinder_film(double kappa, double flux, double angle);
+
 // Gives the height of liquid above the bottom in shafts that a roofed tunnel joins. Under a ceiling, a column
 // that is overfull by o has its head stiffness x o above the ceiling. The stiffness of an incompressible
 // liquid is infinite.

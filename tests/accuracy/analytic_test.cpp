@@ -106,6 +106,17 @@ TEST(Analytic, NusseltIsOfTheDepthAlongGravity) {
   EXPECT_NEAR(nusselt(0.5), 0.32, 1e-12);
 }
 
+// By hand: a flux of 0.1 at kappa 0.3 makes an upright film of 1 cell, and one of 2^(1/3) cells at 30
+// degrees. Where a plane is as steep, its film of the same depth along gravity carries the same.
+TEST(Analytic, CylinderFilm) {
+  EXPECT_NEAR(cylinder_film(0.3, 0.1, std::numbers::pi / 2), 1, 1e-12);
+  EXPECT_NEAR(cylinder_film(0.3, 0.1, std::numbers::pi / 6), 1.2599210498948732, 1e-12);
+  for (const double angle : {0.2, 0.7, 1.2}) {
+    const double along_gravity = cylinder_film(0.2, 0.03, angle) / std::cos(angle);
+    EXPECT_NEAR(0.2 / 3 * nusselt(std::tan(angle)) * std::pow(along_gravity, 3), 0.03, 1e-12);
+  }
+}
+
 // By hand, 600 cells in shafts of 60 columns have a roof over 60 more at height 4. So 60 h + 60 (4 + o) = 600
 // and h - 4 = 8 o, which gives h = 52 / 9. Then 243 cells in 18 columns, 9 of them roofed at 3, give 18 h + 9
 // (3 + o) = 243, so h = 195 / 17.
