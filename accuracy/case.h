@@ -15,7 +15,7 @@ namespace voxmelt::accuracy {
 struct Conditions {
   const step::Implementation* implementation = nullptr;
   int threads = 1;
-  bool quick = false;             // small grids and few settings: all cases in less than a minute
+  bool quick = false;             // small grids and few settings: all cases in a minute of processor time
   std::vector<std::string> sets;  // overrides as of --set, applied to every run's scene after the case's own
   std::filesystem::path scenes;   // folder with the cases' scenes
   bool baseline = true;           // also time the plain baseline
@@ -42,6 +42,11 @@ struct Row {
 
   // Gives value / exact - 1, or value - exact.
   double error() const { return measure == Measure::relative ? value / exact - 1 : value - exact; }
+  // Gives what the error is drawn beside: its gate, or a tenth of the exact value (of 1 where that is 0).
+  double bar() const {
+    if (gate) return *gate;
+    return measure == Measure::relative || exact == 0 ? 0.1 : 0.1 * std::abs(exact);
+  }
   bool passed() const { return !gate || std::abs(error()) <= *gate; }  // false for a NaN
 };
 
@@ -72,7 +77,7 @@ struct Case {
   std::string name;    // name for --case
   std::string family;  // a heading of the report
   std::string title;   // one line of `voxmelt list cases`
-  std::string about;   // the run, and the answer that it is compared with
+  std::string about;   // the run, the answer that it is compared with, and what --quick shortens
   Outcome (*measure)(const Conditions&);
 };
 

@@ -110,9 +110,9 @@ std::string html_text(const Report& report) {
       escaped(report.version), escaped(report.implementation), report.threads, report.threads == 1 ? "" : "s",
       report.sets.empty() ? "" : escaped(fmt::format("; changed by --set {}", fmt::join(report.sets, ", "))));
   body +=
-      "<h2>Every gate</h2>\n<section class=\"card\"><p>Each dot is an error over its gate. Left of the line "
-      "it "
-      "is smaller; the axis is logarithmic.</p>" +
+      "<h2>Every error</h2>\n<section class=\"card\"><p>Each dot is an error over its gate. A ring is an "
+      "error without a gate, over a tenth of the exact value, or over 0.1 where that is 0. Left of the line "
+      "an error is smaller than that bar; the axis is logarithmic.</p>" +
       overview_svg(report) + "</section>\n";
   std::string family;
   for (const Found& found : report.found) {

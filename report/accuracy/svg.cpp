@@ -99,9 +99,9 @@ std::string chart_svg(const Chart& chart) {
 std::string overview_svg(const Report& report) {
   constexpr double kRow = 19, kNames = 150, kEnd = 1040, kFurthest = 1000;
   const double middle = kNames + (kEnd - kNames) / 2;
-  // The axis goes from a thousandth of the gate to a thousand times. An error of 0 is within a gate of 0.
+  // The axis goes from a thousandth of the bar to a thousand times. An error of 0 is within a gate of 0.
   const auto place = [&](const Row& row) {
-    const double error = std::abs(row.error()), ratio = error == 0 ? 0 : error / *row.gate;
+    const double error = std::abs(row.error()), ratio = error == 0 ? 0 : error / row.bar();
     const double decades = std::isfinite(ratio) ? std::log10(std::max(ratio, 1 / kFurthest)) : 3;
     return middle + std::clamp(decades / std::log10(kFurthest), -1.0, 1.0) * (kEnd - 10 - middle);
   };
@@ -110,11 +110,13 @@ std::string overview_svg(const Report& report) {
   for (const Found& found : report.found) {
     std::string dots;
     for (const Row& row : found.outcome.rows)
-      if (row.gate)
-        dots += fmt::format(
-            R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5.2"><title>{}, {}: error {}, gate {}</title></circle>)",
-            row.passed() ? "good" : "bad", place(row), y, escaped(row.setting), escaped(row.quantity),
-            error_text(row), gate_text(row));
+      dots += fmt::format(
+          R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5.2"><title>{}, {}: error {}, {}</title></circle>)",
+          !row.gate      ? "told"
+          : row.passed() ? "good"
+                         : "bad",
+          place(row), y, escaped(row.setting), escaped(row.quantity), error_text(row),
+          row.gate ? "gate " + gate_text(row) : "reported");
     if (dots.empty()) continue;
     body += line(kNames, y, kEnd, y, "grid");
     body += fmt::format(
@@ -124,13 +126,13 @@ std::string overview_svg(const Report& report) {
     y += kRow;
   }
   std::string svg = fmt::format(
-      R"(<svg class="overview" viewBox="0 0 {} {:.0f}" role="img" aria-label="Every error over its gate">)",
+      R"(<svg class="overview" viewBox="0 0 {} {:.0f}" role="img" aria-label="Every error beside its bar">)",
       kEnd + 12, y + 6);
   for (int decade = -3; decade <= 3; ++decade) {
     const double x = middle + decade / 3.0 * (kEnd - 10 - middle);
     svg += line(x, 16, x, y - 8, decade == 0 ? "gate" : "grid");
     svg += text(x, 10, "middle",
-                decade == 0  ? "the gate"
+                decade == 0  ? "the bar"
                 : decade < 0 ? fmt::format("1/{:g}", std::pow(10, -decade))
                              : fmt::format("{:g} ×", std::pow(10, decade)));
   }

@@ -32,6 +32,7 @@ p { margin: 0 0 14px; max-width: 74ch; }
 .head { display: flex; justify-content: space-between; gap: 20px; align-items: baseline; }
 .pill { font-size: 13px; font-weight: 600; white-space: nowrap; padding: 2px 11px; border-radius: 99px; border: 1px solid; }
 .good { color: var(--good); fill: var(--good); } .bad { color: var(--bad); fill: var(--bad); }
+.told { fill: none; stroke: var(--soft); stroke-width: 1.6; }
 .rows { overflow-x: auto; }
 table { border-collapse: collapse; table-layout: fixed; width: 100%; min-width: 860px; font-size: 14px; }
 th { width: 84px; } th:first-child { width: auto; } th:last-child { width: 46px; }

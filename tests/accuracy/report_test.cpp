@@ -100,6 +100,19 @@ TEST(Report, ExactErrorsAreWithinExactGates) {
   EXPECT_EQ(count(page, "<circle class=\"bad\" cx=\"1030.0\""), 1);
 }
 
+// Rows without a gate are drawn as well. By hand: 1.7 and 53 are 70 % and 6 % off, 7 and 0.6 times a tenth.
+// Over an exact 0 the bar is 0.1.
+TEST(Report, ErrorsWithoutAGateAreDrawn) {
+  EXPECT_NEAR(row(1.7, 1, Measure::relative, {}).bar(), 0.1, 1e-12);
+  EXPECT_NEAR(row(53, 50, Measure::absolute, {}).bar(), 5, 1e-12);
+  EXPECT_NEAR(row(53, -50, Measure::absolute, {}).bar(), 5, 1e-12);
+  EXPECT_NEAR(row(0.2, 0, Measure::absolute, {}).bar(), 0.1, 1e-12);
+  EXPECT_NEAR(row(53, 50, Measure::absolute, 2).bar(), 2, 1e-12);
+  const std::string page = html_text(report({row(11, 1, Measure::relative, {})}));  // a hundred times the bar
+  EXPECT_EQ(count(page, "<circle class=\"told\" cx=\"885.0\""), 1);
+  EXPECT_EQ(count(page, "reported</title>"), 1);
+}
+
 TEST(Report, TablesHaveOneWidth) {
   const std::string text = markdown_text(report({row(1.1, 1, Measure::relative, 0.01)}));
   EXPECT_NE(text.find("**0 of 1 gates passed.**"), std::string::npos);
