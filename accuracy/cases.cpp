@@ -20,9 +20,12 @@ using Cases = std::vector<Case>;
 Cases arithmetic() {
   return {
       {"books", "Arithmetic", "Mass, heat and energy balance to the unit",
-       "The scenes proving_ground, in which every rule acts, under both laws.", measure_books},
+       "The scenes proving_ground, in which every rule acts, under both laws. "
+       "With --quick a tenth of the steps.",
+       measure_books},
       {"implementations", "Arithmetic", "Every implementation gives the reference's bits",
-       "The same scenes with every instruction set that this processor has, on one thread and on two.",
+       "The same scenes with every instruction set that this processor has, on one thread and on two. "
+       "With --quick a tenth of the steps.",
        measure_implementations},
       {"limit", "Arithmetic", "What the limit of the mobility cuts is counted",
        "Three still pools, one of which is shallow enough. The counters of report.json beside a count by "
@@ -36,17 +39,20 @@ Cases heat() {
       {"heat_kernel", "Heat", "A Gaussian of heat widens: its second moment grows by 6 D per step",
        "Eq. 1 with 6, 18 and 26 neighbours against the heat kernel. The Gaussian starts with sigma 6 and a "
        "peak "
-       "of 60,000 units, and its variance triples.",
+       "of 60,000 units, and its variance triples. "
+       "With --quick one gamma for each.",
        measure_heat_kernel},
       {"slab", "Heat", "A slab between a wall and an insulator warms as Fourier's series says",
        "A column of 64 cells under an isothermal wall. Its lower face passes no heat.", measure_slab},
       {"stefan", "Heat", "One-phase Stefan problem: the melting front moves as the square root of time",
        "A column of 64 cells at its melting point, under an isothermal wall. The front is the "
        "latent "
-       "heat taken up, and should be at 48 cells in the end. St is the wall's excess over the latent heat.",
+       "heat taken up, and should be at 48 cells in the end. St is the wall's excess over the latent heat. "
+       "With --quick a column of 40 cells, the front at 30, and fewer St.",
        measure_stefan},
       {"stefan_two_phase", "Heat", "Two-phase Stefan problem: the solid is colder than its melting point",
-       "As above, with a solid below its melting point, long enough that its far end stays cold.",
+       "As above, with a solid below its melting point, long enough that its far end stays cold. "
+       "With --quick the front goes 32 cells.",
        measure_stefan_two_phase},
       {"checkerboard", "Heat", "A checkerboard of heat at the largest gamma decays, or the scene is refused",
        "Above gamma 0.39, with 6 neighbours, hot and cold cells change places in each step and keep more "
@@ -63,7 +69,8 @@ Cases light() {
       {"lit_ball", "Light", "A ball takes up what its cross-section cuts out of the light",
        "A ball of radius 20, the source 50 radii away. The cross-section of its cells, which is larger than "
        "the ball's, is counted in pixels. What is left beside it is the light's error. With 16 rays per face "
-       "every direction keeps the gate of 10 %; with fewer the worst is reported.",
+       "every direction keeps the gate of 10 %; with fewer the worst is reported. "
+       "With --quick 40 directions of 100.",
        measure_lit_ball},
       {"shadow_edge", "Light", "The shadow of a wall ends where geometry says",
        "A wall 12 cells high on a floor. The shadow is as long as the light that the floor lacks. With m x m "
@@ -87,11 +94,13 @@ Cases spreading() {
        "Its rms radius must hold at each of five samples.",
        measure_huppert},
       {"thin_film", "Spreading", "The same as a film: depth 2 to 0.4",
-       "Kappa 0.1. Below depth 1/2 the film is thinner than the gates ask for, and is only reported.",
+       "Kappa 0.1. Below depth 1/2 the film is thinner than the gates ask for, and is only reported. "
+       "With --quick a drop of radius 14, not 20, and no step below 1/2.",
        measure_thin_film},
       {"flux_vent", "Spreading", "A vent of constant flux: the radius grows as t^(1/2)",
        "Five cells of liquid per step from a vent of radius 3. Huppert's profile of constant flux gives the "
-       "rms radius, which the width of the vent leaves as it is. The wet area is at least 1/256 cell deep.",
+       "rms radius, which the width of the vent leaves as it is. The wet area is at least 1/256 cell deep. "
+       "With --quick half of the steps.",
        measure_flux_vent},
       {"dam_length", "Spreading", "A dam in a channel spreads as t^(1/5)",
        "A dam that starts on Huppert's profile, from depth 4 to 2, in the middle row of a channel 33 cells "
@@ -100,12 +109,12 @@ Cases spreading() {
       {"dam_width", "Spreading", "The dam has the same length in a channel of any width",
        "The same dam, from depth 4 to 2.6, in channels from 1 to 33 cells wide.", measure_dam_width},
       {"dam_refined", "Spreading", "A dam keeps to theory in cells of any size",
-       "Cells of 2 to 1/4 units, and steps as many times shorter, with the sub-steps of the default.",
+       "Cells of 2 to 1/4 units, and steps as many times shorter, with the sub-steps of the default. "
+       "With --quick cells of 2 and 1 unit.",
        measure_dam_refined},
       {"dam_viscosity", "Spreading", "Dams of different viscosity are alike after equal kappa x steps",
        "Dams 16 high and 32 long. Beside them stands lubrication theory, integrated by finite volumes an "
-       "eighth of a cell "
-       "long.",
+       "eighth of a cell long. With --quick the channel is 9 cells wide, not 17.",
        measure_dam_viscosity},
       {"drop_shape", "Spreading", "A drop stays round",
        "A disc of radius 12 and depth 4 under both laws. The paper's law is no viscous liquid: its exponent "
@@ -117,16 +126,19 @@ Cases spreading() {
 Cases slopes() {
   return {
       {"nusselt", "Slopes", "A film on a plane carries Nusselt's flux",
-       "Kappa 0.1. The flux through the middle of the plane is counted over 256 steps.", measure_nusselt},
+       "Kappa 0.1. The flux through the middle of the plane is counted over 256 steps. "
+       "With --quick the plane is 9 cells wide, not 33.",
+       measure_nusselt},
       {"melting_film", "Slopes", "The same on a solid that melts",
        "The solid's surface lies where its amount and its heat say. "
-       "Kappa 0.1 where it is cold, and 0.02 where it melts under a sun.",
+       "Kappa 0.1 where it is cold, and 0.02 where it melts under a sun. "
+       "With --quick slope 0.25 alone, and cold.",
        measure_melting_film},
       {"narrow_film", "Slopes", "The same between walls",
        "A film of depth 1.6 in channels from 1 to 9 cells wide.", measure_narrow_film},
       {"thermal_film", "Slopes", "The mobility doubles with every `doubling` of temperature",
        "A film of depth 1.6 at one temperature, slope 0.25. Its kappa is chosen so that it is 0.1 at this "
-       "temperature.",
+       "temperature. With --quick the plane is 9 cells wide, not 33.",
        measure_thermal_film},
       {"cylinder_film", "Slopes", "A film runs down the side of a cylinder",
        "The film is fed at the top of a horizontal cylinder. Nusselt's film on the slope of each place says "
@@ -136,7 +148,9 @@ Cases slopes() {
        "are reported.",
        measure_cylinder_film},
       {"stairs", "Slopes", "The same on steps of whole cells",
-       "A bed that cannot be told from stairs holds liquid back. Reported.", measure_stairs},
+       "A bed that cannot be told from stairs holds liquid back. Reported. "
+       "With --quick depth 0.5 alone.",
+       measure_stairs},
       {"blob", "Slopes", "A blob runs straight down a plane at any angle to the grid",
        "A paraboloid of radius 12 and depth 1.6, kappa 0.1. Its centre of mass moves by the integral of h^3 "
        "over that of "
@@ -149,7 +163,8 @@ Cases levels() {
   return {
       {"tubes", "Levels", "Communicating vessels level: the scene lesson_tubes",
        "600 cells of liquid. Both shafts should stand at 52/9: under the roof of the tunnel a column that is "
-       "overfull by o has a head 8 o above the ceiling. An incompressible liquid would stand at 6 cells.",
+       "overfull by o has a head 8 o above the ceiling. An incompressible liquid would stand at 6 cells. "
+       "With --quick up to step 4,000.",
        measure_tubes},
       {"u_tube", "Levels", "A U-tube of 12 cells levels",
        "Shafts of 3 x 3 cells over a tunnel of 9 x 3 x 3. Its roofed part is squeezed as in the case "
@@ -175,10 +190,11 @@ Cases convergence() {
       {"melted_ball", "Convergence", "A melted ball of 32, 64 and 128 cells spreads alike",
        "A ball of liquid falls apart under its weight. Physical time and viscosity are fixed, steps are as "
        "many times "
-       "shorter as cells are smaller. With --quick the balls have 16 and 32 cells.",
+       "shorter as cells are smaller. With --quick the balls have 16 and 32 cells, and no gate.",
        measure_melted_ball},
       {"convergence_grid", "Convergence", "A melting ball on grids of 32, 64 and 128 cells",
-       "One physical time. All numbers of the scene follow the size of its cells, and steps its square.",
+       "One physical time. All numbers of the scene follow the size of its cells, and steps its square. "
+       "With --quick the first two.",
        measure_convergence_in_grid},
       {"convergence_step", "Convergence", "A melting ball in shorter steps",
        "The grid of 32 cells, with steps a half and a quarter as long.", measure_convergence_in_step},

@@ -197,7 +197,8 @@ Outcome measure_dam_refined(const Conditions& conditions) {
 
 // Compares dams 16 high and 32 long after equal kappa x steps. Only their viscosity differs.
 Outcome measure_dam_viscosity(const Conditions& conditions) {
-  constexpr int kHigh = 16, kLong = 32, kChannel = 112, kWide = 17, kParts = 8;
+  constexpr int kHigh = 16, kLong = 32, kChannel = 112, kParts = 8;
+  const int wide = conditions.quick ? 9 : 17;
   constexpr double kLater = 4;  // kappa x steps, when the far end of the dam has an effect at the wall
   Outcome outcome;
   Chart chart{.title = "Dams after kappa x steps = 4",
@@ -215,7 +216,7 @@ Outcome measure_dam_viscosity(const Conditions& conditions) {
   chart.curves.push_back(std::move(exact));
   std::optional<double> first_height;
   for (const double kappa : {0.001, 0.01, 0.1}) {
-    Trial trial = channel(conditions, kappa, kChannel, kHigh + 2, kWide,
+    Trial trial = channel(conditions, kappa, kChannel, kHigh + 2, wide,
                           [&](int x) { return x < kLong ? kHigh : 0.; }, {"flow.viscous.substeps_max=1024"});
     const std::string setting = fmt::format("kappa {:g}", kappa);
     trial.run_to(step_at(1 / kappa));

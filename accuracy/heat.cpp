@@ -50,7 +50,7 @@ struct Stefan {
     sets.push_back(fmt::format("material.melting_point={}", melting_point()));
     sets.push_back(fmt::format("material.latent_heat={}", latent()));
     sets.push_back(fmt::format("flow.law=\"{}\"", law));
-    if (law == "viscous") sets.push_back("flow.viscous.kappa=0.02");
+    if (law == "viscous") sets.emplace_back("flow.viscous.kappa=0.02");
     return {conditions, "column", sets};
   }
   double front(const Trial& trial) const {
@@ -156,8 +156,8 @@ Outcome measure_slab(const Conditions& conditions) {
   constexpr double kGamma = 0.3, kWall = 0.9, kThick = kCells + kHalfTheWall;
   const double d = diffusivity(kGamma, 6);
   Strings sets = column(kCells, kGamma, kWall, 0);
-  sets.push_back("material.melting_point=1.0");
-  sets.push_back("material.latent_heat=0.0");
+  sets.emplace_back("material.melting_point=1.0");
+  sets.emplace_back("material.latent_heat=0.0");
   Trial trial(conditions, "column", sets);
   Outcome outcome;
   Chart chart{.title = "A slab heated through one face", .x_label = "depth, cells", .y_label = "temperature"};
@@ -190,6 +190,7 @@ Outcome measure_stefan(const Conditions& conditions) {
   const std::vector<double> numbers = conditions.quick ? std::vector<double>{0.05, 0.5, 2}
                                                        : std::vector<double>{0.01, 0.05, 0.1, 0.5, 1, 2, 10};
   Outcome outcome;
+  const int cells = conditions.quick ? 40 : 64;
   std::vector<Chart> profiles;
   for (const std::string law : {"paper", "viscous"}) {
     Chart errors{.title = "Error of the front, " + law + " law",
@@ -197,7 +198,7 @@ Outcome measure_stefan(const Conditions& conditions) {
                  .y_label = "error, %",
                  .band = 1};
     for (const double number : numbers) {
-      Followed found = follow(conditions, {law, number, 0}, 64, 48);
+      Followed found = follow(conditions, {law, number, 0}, cells, 0.75 * cells);
       if (number >= 0.05) found.row.gate = 0.01;
       outcome.rows.push_back(std::move(found.row));
       errors.curves.push_back(std::move(found.error));

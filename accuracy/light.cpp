@@ -191,6 +191,8 @@ std::vector<double> silhouettes_of_cells(const std::vector<Source>& sources, dou
 // Runs a ball of radius 20, the source 50 radii away, from three directions by name and 100 on a spiral over
 // the sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
 Outcome measure_lit_ball(const Conditions& conditions) {
+  const int count = conditions.quick ? 40 : 100;
+  const std::string those = fmt::format(" of {}", count);
   const double exact = ball_intercepts(kBallRadius, kBallDistance);
   Conditions without_baseline = conditions;
   without_baseline.baseline = false;
@@ -210,7 +212,7 @@ Outcome measure_lit_ball(const Conditions& conditions) {
   }
 
   std::vector<Source> sources;
-  for (const Direction& d : spiral(100)) sources.push_back(far_source(kBallMiddle, d, kBallDistance));
+  for (const Direction& d : spiral(count)) sources.push_back(far_source(kBallMiddle, d, kBallDistance));
   const std::vector<double> silhouettes = silhouettes_of_cells(sources, exact);
 
   struct Setting {
@@ -229,20 +231,20 @@ Outcome measure_lit_ball(const Conditions& conditions) {
       of_ball.push_back(lit.energy / exact);
       of_cells.push_back(of_ball.back() / silhouettes[i]);
     }
-    row(name + ", worst of 100", "the ball", worst(of_ball), setting.of_ball, speed);
-    row(name + ", mean of 100", "the ball", mean(of_ball), {}, speed);
-    row(name + ", worst of 100", "its cells", worst(of_cells), setting.of_cells, speed);
-    row(name + ", mean of 100", "its cells", mean(of_cells), setting.of_mean, speed);
+    row(name + ", worst" + those, "the ball", worst(of_ball), setting.of_ball, speed);
+    row(name + ", mean" + those, "the ball", mean(of_ball), {}, speed);
+    row(name + ", worst" + those, "its cells", worst(of_cells), setting.of_cells, speed);
+    row(name + ", mean" + those, "its cells", mean(of_cells), setting.of_mean, speed);
     curves.push_back(sorted_curve(name, of_ball));
   }
-  outcome.rows.push_back({.setting = "mean of 100 directions",
+  outcome.rows.push_back({.setting = fmt::format("mean of {} directions", count),
                           .quantity = "cross-section of the cells over that of the ball",
                           .value = mean(silhouettes),
                           .exact = 1,
                           .note = "cells whose centre lies in the ball reach beyond it"});
   curves.push_back(sorted_curve("cross-section of the cells", silhouettes));
   curves.push_back({.name = "ball", .points = {{0, 1}, {100, 1}}, .exact = true});
-  outcome.charts.push_back({.title = "A ball lit from 100 directions",
+  outcome.charts.push_back({.title = fmt::format("A ball lit from {} directions", count),
                             .x_label = "directions in order of the value, %",
                             .y_label = "energy taken up over the ball's",
                             .curves = std::move(curves)});

@@ -152,7 +152,7 @@ Outcome measure_huppert(const Conditions& conditions) {
 
 // Films go from depth 2 to 1/2, and on to 0.4, where the dead zone of one unit of head has an effect.
 Outcome measure_thin_film(const Conditions& conditions) {
-  const Start start{0.1, 2, conditions.quick ? 16. : 20.};
+  const Start start{0.1, 2, conditions.quick ? 14. : 20.};
   Trial trial = start.trial(conditions, 2 / 0.35);
   std::vector<double> depths{1.4, 1.0, 0.7, 0.5};
   if (!conditions.quick) depths.push_back(0.4);
@@ -210,6 +210,7 @@ Trial vent_on_plane(const Conditions& conditions, double kappa, double flux, std
 // r^2).
 Outcome measure_flux_vent(const Conditions& conditions) {
   constexpr double kWet = 1.0 / 256;
+  const std::uint32_t end = conditions.quick ? 1600 : 3200;
   Outcome outcome;
   Chart errors{.title = "Errors of the radii of what a vent feeds",
                .x_label = "step",
@@ -217,7 +218,7 @@ Outcome measure_flux_vent(const Conditions& conditions) {
                .logarithmic_x = true,
                .band = 1};
   for (const double kappa : {0.02, 0.2}) {
-    Trial trial = vent_on_plane(conditions, kappa, 5, 3200);
+    Trial trial = vent_on_plane(conditions, kappa, 5, end);
     const std::string setting = fmt::format("kappa {:g}", kappa);
     struct Radius {
       const char* name;
@@ -225,16 +226,16 @@ Outcome measure_flux_vent(const Conditions& conditions) {
       std::vector<Point> values{};
       Curve error{};
     } rms{"rms radius", 0.01}, wet{"radius of the wet area", 0.04};
-    for (const std::uint32_t step : {100u, 200u, 400u, 800u, 1600u, 3200u}) {
+    for (const std::uint32_t step : {end / 32, end / 16, end / 8, end / 4, end / 2, end}) {
       trial.run_to(step);
       const Columns columns(trial.volume());
       const FedCurrent current = fed(trial, kappa);
       const auto note = [&](Radius& radius, double value, double wanted) {
         radius.values.push_back({1. * step, value});
         radius.error.points.push_back({1. * step, 100 * (value / wanted - 1)});
-        if (step == 3200)
+        if (step == end)
           outcome.rows.push_back(
-              {.setting = setting + ", step 3200",
+              {.setting = fmt::format("{}, step {}", setting, end),
                .quantity = fmt::format("{}, cells, at {:.3f} cells per step", radius.name, current.flux),
                .value = value,
                .exact = wanted,
@@ -246,8 +247,8 @@ Outcome measure_flux_vent(const Conditions& conditions) {
     }
     for (Radius* one : {&rms, &wet}) {
       const auto& p = one->values;
-      Row row = exponent_row(setting + ", steps 800 to 3200", std::log(p[5].y / p[3].y) / std::log(4.0), 0.5,
-                             0.01, trial);
+      Row row = exponent_row(fmt::format("{}, steps {} to {}", setting, end / 4, end),
+                             std::log(p[5].y / p[3].y) / std::log(4.0), 0.5, 0.01, trial);
       row.quantity = fmt::format("exponent of the {} over time", one->name);
       outcome.rows.push_back(std::move(row));
       one->error.name = fmt::format("{}, {}", one->name, setting);

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::int64_t kCellsPerThread = 50'000;
 
-// Runs one step, or as many as take a twentieth of a second.
-std::optional<double> baseline_speed(const rule::Parameters& parameters, const state::Volume& start) {
+// Runs one step, or as many as take so many seconds.
+std::optional<double> baseline_speed(const rule::Parameters& parameters, const state::Volume& start,
+                                     double wanted) {
   measure::Workload workload;
   workload.parameters = parameters;
   workload.start = start;
@@ -29,8 +30,8 @@ std::optional<double> baseline_speed(const rule::Parameters& parameters, const s
     return measure::mean(runs->plain()).total();
   };
   std::optional<double> seconds = seconds_per_step();
-  if (seconds && *seconds < 0.025) {
-    workload.steps = static_cast<int>(std::clamp(0.05 / std::max(*seconds, 1e-6), 2.0, 10'000.0));
+  if (seconds && *seconds < wanted / 2) {
+    workload.steps = static_cast<int>(std::clamp(wanted / std::max(*seconds, 1e-6), 2.0, 10'000.0));
     seconds = seconds_per_step();
   }
   if (!seconds) return std::nullopt;
@@ -48,7 +49,8 @@ Trial::Trial(const Conditions& conditions, const std::string& scene_name, std::v
     fill(scene.initial);
   }
   warnings_ = std::move(scene.warnings);
-  if (conditions.baseline) baseline_ = baseline_speed(scene.parameters, scene.initial);
+  if (conditions.baseline)
+    baseline_ = baseline_speed(scene.parameters, scene.initial, conditions.quick ? 0.02 : 0.05);
   // On small grids threads cost more time than they save.
   const std::int64_t cells = scene.initial.grid.cells();
   step::Tuning tuning;

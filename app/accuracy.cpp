@@ -134,7 +134,8 @@ int run_accuracy(const AccuracyOptions& options) {
 void add_accuracy(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
   const Command command = program.add("accuracy", std::string(description_of("accuracy")));
-  command.flag("--quick", options->quick, "small cases only: about a minute");
+  command.flag("--quick", options->quick,
+               "shorter cases, a minute of processor time (--front: one scene, fewer points)");
   command.option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
       .written_as("NAME")
       .one_each_time();
@@ -148,9 +149,10 @@ void add_accuracy(CommandLine& program) {
                  "folder for accuracy.html, .md, .csv and .json (--front: front.html, ...)");
   add_common(command, options->common);
   command.footer(
-      "Each case runs a scene of scenes/accuracy and compares with what mathematics says of it.\n"
-      "Ends with 1 where an error is larger than its gate. Baseline: the paper's program, plainly written,\n"
-      "on the same start; for a scene of the viscous law it runs the paper's law.");
+      "Each case runs scenes, most of them from scenes/accuracy, and compares with what mathematics says,\n"
+      "with the reference, or with finer grids. --set and --seed change every scene. A row without a gate\n"
+      "is reported only. Ends with 1 where an error is larger than its gate. Baseline: the paper's program,\n"
+      "plainly written, on the same start; for a scene of the viscous law it runs the paper's law.");
   command.runs([options, front] {
     options->wants_front = front.given();
     std::erase(options->front, "");  // --front alone gives an empty name

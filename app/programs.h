@@ -16,7 +16,7 @@ inline constexpr std::array kElsewhere{
     Elsewhere{"bench", "voxmelt-measure",
               "Throughput, beside what this machine could do at most and the paper's program"},
     Elsewhere{"accuracy", "voxmelt-measure",
-              "The physics: errors against analytic answers, with the bar that each must keep"},
+              "The physics: errors beside analytic answers, and the bars that they must keep"},
     Elsewhere{"verify", "voxmelt-hardware",
               "Run the hardware model in lock-step with the software; stop at the first difference"},
     Elsewhere{"explore", "voxmelt-hardware",
