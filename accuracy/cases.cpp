@@ -1,8 +1,10 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/ball.h"
 #include "accuracy/books.h"
 #include "accuracy/case.h"
+#include "accuracy/cavities.h"
 #include "accuracy/convergence.h"
 #include "accuracy/heat.h"
 #include "accuracy/level.h"
@@ -54,6 +56,15 @@ Cases heat() {
        "As above, with a solid below its melting point, long enough that its far end stays cold. "
        "With --quick the front goes 32 cells.",
        measure_stefan_two_phase},
+      {"ball_in_mould", "Heat", "A ball melts in a hot mould that it fills",
+       "A plain program conducts heat through 160 shells, St 1. What melts has no room to move. Under the "
+       "viscous law it moves all the same, as in the case cavities: reported. "
+       "With --quick its ball of radius 20 is left out.",
+       measure_ball_in_mould},
+      {"ball_in_oven", "Heat", "A ball melts in an oven",
+       "Air heats what is exposed, and what melts is drained at once. So the radius shrinks steadily. The "
+       "surface that the rule gives to a ball of cells is 5 to 8 % too large.",
+       measure_ball_in_oven},
       {"checkerboard", "Heat", "A checkerboard of heat at the largest gamma decays, or the scene is refused",
        "Above gamma 0.39, with 6 neighbours, hot and cold cells change places in each step and keep more "
        "than half of their difference. A scene that is refused or warned of counts as 0.",
@@ -174,6 +185,13 @@ Cases levels() {
        "A closed full box, a checkerboard pool, and a film with a yield stress, which may cost 3 % of "
        "roundness.",
        measure_rest},
+      {"cavities", "Levels", "A full cavity is at rest, whatever its ceiling",
+       "Cavities of some 16 cells, closed all round and full. Each layer is hotter than the one below. Under "
+       "a "
+       "level ceiling everything stays. Under any other the law has no pressure for the columns whose "
+       "ceiling "
+       "is lower: they take from their neighbours until they are overfull. Reported.",
+       measure_cavities},
       {"fall", "Levels", "A block falls whole, and a funnel of one cell empties a basin",
        "In free air liquid falls one cell per step. Of the basin, a film may stay.", measure_fall},
       {"filling", "Levels", "No cell in the open is squeezed",
