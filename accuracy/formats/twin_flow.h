@@ -1,5 +1,5 @@
-// The twin runs sections 4, 8 and 9 of docs/automaton.md in any number format. These are vents and drains,
-// gravity with excess, and the spreading of the paper's law.
+// The twin runs sections 4, 8 and 9 of docs/automaton.md in any number format. These are vents, drains and
+// an open border, gravity with excess, and the spreading of the paper's law.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,8 @@ class FlowRules {
         for_region(vent.region, cells, [&](std::size_t i) { pour(vent, rule::dither(step), cells, i); });
     for (const rule::Drain& drain : parameters_.drains)
       if (drain.from <= step && step < drain.until)
-        for_region(drain.region, cells, [&](std::size_t i) { take(drain, cells, i); });
+        for_region(drain.region, cells, [&](std::size_t i) { take(amount(drain.rate), cells, i); });
+    if (parameters_.open_border) empty_border(cells);
   }
 
   void gravity(std::uint32_t step, Cells<Format>& cells, const Rows& columns) const {
@@ -112,9 +113,19 @@ class FlowRules {
     cells.kind[i] = kLiquid;
   }
 
-  static void take(const rule::Drain& drain, Cells<Format>& cells, std::size_t i) {
-    cells.amount[i] =
-        static_cast<Value>(cells.amount[i] - std::min(amount(drain.rate), Wide{cells.amount[i]}));
+  static void empty_border(Cells<Format>& cells) {
+    const state::Grid g = cells.grid;
+    for (int z = 0; z < g.z; ++z)
+      for (int y = 0; y < g.y; ++y)
+        for (int x = 0; x < g.x; ++x) {
+          const bool outermost = x == 0 || x + 1 == g.x || z == 0 || z + 1 == g.z;
+          const std::size_t i = cells.at(x, y, z);
+          if (outermost && !cells.blocked(i)) take(cells.amount[i], cells, i);
+        }
+  }
+
+  static void take(Wide rate, Cells<Format>& cells, std::size_t i) {
+    cells.amount[i] = static_cast<Value>(cells.amount[i] - std::min(rate, Wide{cells.amount[i]}));
     cells.energy[i] = std::min(cells.energy[i], cells.amount[i]);
     if (cells.amount[i] > 0) return;
     cells.kind[i] = kAir;

@@ -116,6 +116,8 @@ std::vector<std::string> Excerpt::removable() const {
   for (const char* key : kPlaced)
     if (const Value* all = document_.find(key); all != nullptr && all->kind == Value::Kind::array)
       for (std::size_t i = 0; i < all->items.size(); ++i) names.push_back(fmt::format("{}.{}", key, i));
+  const Value* grid = document_.find("grid");
+  if (grid != nullptr && grid->find("border") != nullptr) names.emplace_back("grid.border");
   const Value* heat = document_.find("heat");
   if (heat != nullptr && heat->find("air") != nullptr) names.emplace_back("heat.air");
   return names;
@@ -137,6 +139,7 @@ std::string Excerpt::text(const Part& part, const std::string& fields, std::uint
     all->items = std::move(kept);
     if (all->items.empty()) document.remove(key);
   }
+  if (is_left_out("grid.border")) document.find("grid")->remove("border");
   if (is_left_out("heat.air")) document.find("heat")->remove("air");
   put_start(document, part, fields, step);
   return print_document(document);

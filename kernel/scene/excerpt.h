@@ -24,7 +24,7 @@ class Excerpt {
   // Reads the scene as `load` does, with these overrides. It throws InputError.
   Excerpt(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
-  // Lists what a part may go without: "vent.0", "heat_source.1", "heat.air".
+  // Lists what a part may go without: "vent.0", "heat_source.1", "grid.border", "heat.air".
   std::vector<std::string> removable() const;
 
   // Returns the text of a part to be run. `fields` is the folder of the state, beside the file. `step` is the

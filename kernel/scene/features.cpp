@@ -20,6 +20,7 @@ constexpr Feature kFeatures[] = {
     {"latent_heat", [](P p) { return p.material.latent_heat > 0; }},
     {"vent", [](P p) { return !p.vents.empty(); }},
     {"drain", [](P p) { return !p.drains.empty(); }},
+    {"open_border", [](P p) { return p.open_border; }},
     {"diagonal", [](P p) { return paper(p) && p.flow.paper.neighbours == 8; }},
     {"adhesion", [](P p) { return p.flow.fall.wall_factor != p.flow.fall.factor; }},
     {"drip", [](P p) { return p.flow.fall.hang > 0; }},

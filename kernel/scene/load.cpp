@@ -28,7 +28,7 @@ namespace {
 constexpr double kLargestSide = 4096;
 constexpr std::uint32_t kMostSteps = 0xFFFFFFFF;
 
-state::Grid read_grid(Reader& root) {
+state::Grid read_grid(Reader& root, rule::Parameters& parameters) {
   std::optional<Reader> reader = root.table("grid");
   if (!reader) fail_at(root.place(), "grid.size is missing: a scene needs [grid] size = [x, y, z]");
   const Vec3 size = reader->vector<3>("size", at_least(1).at_most(kLargestSide));
@@ -38,6 +38,7 @@ state::Grid read_grid(Reader& root) {
     return cells;
   };
   const state::Grid grid{whole(size[0]), whole(size[1]), whole(size[2])};
+  parameters.open_border = reader->choice("border", {"closed", "open"}, 0) == 1;
   reader->finish();
   check_memory(grid, reader->place("size"));
   return grid;
@@ -64,7 +65,7 @@ state::Grid read_settings(Reader& root, Scene& scene) {
   scene.title = root.text("title", scene.name);
   root.text("description", "");
 
-  const state::Grid grid = read_grid(root);
+  const state::Grid grid = read_grid(root, scene.parameters);
   read_run(root, scene);
   scene.parameters.material = read_material(root);
   scene.parameters.heat = read_heat(root, grid.y, scene.warnings);

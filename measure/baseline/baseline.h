@@ -3,7 +3,8 @@
 // project is to it.
 //
 // It runs the paper's law (docs/automaton.md, sections 6 to 9) in real numbers: 1 is a full cell, and the top
-// of the range of temperatures. The bounds that only integers need are left out, and so are vents and drains.
+// of the range of temperatures. The bounds that only integers need are left out, and so are vents, drains and
+// open borders.
 #pragma once
 
 #include <cstdint>

@@ -50,6 +50,7 @@ STEP = Key(0, LAST_STEP, 0, 30, 65535, 65536, 2**31 - 1, 2**31, 2**31 + 1, LAST_
 
 KEYS = {
     "grid.size": Key(1, 4096, 1, 12, 63, 64, 65, 130),
+    "grid.border": Choice("closed", "open"),
     "run.seed": Key(0, 2**63 - 1, 0, 2**63 - 1, 1, 2**32 - 1, 2**32, 2**63 - 2),
     "material.melting_point": Key(TINY, 1, 0.2, 0.7, 1 / 65535, 0.5),
     "material.latent_heat": Key(0, 1, 0.0, 0.3, 1 / 65535),

@@ -161,7 +161,7 @@ class Maker:
         return shape
 
     def scene(self):
-        scene = {"title": "foreign", "grid": {"size": self.size}, "run": self.some("run", "seed"), "material": self.material()}
+        scene = {"title": "foreign", "grid": {"size": self.size, **self.some("grid", "border", given=0.5)}, "run": self.some("run", "seed"), "material": self.material()}
         by_shapes = self.gives("solid", 0) or self.gives("inert", 0) or self.gives("liquid", 0.1)
         if not by_shapes:
             scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}

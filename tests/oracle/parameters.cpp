@@ -196,6 +196,9 @@ Parameters read_parameters(const std::string& path) {
 
   Parameters p;
   p.grid = point(json, "grid", 1, Int{1} << 16);
+  const Json& border = member(json, "border");
+  require(border == "open" || border == "closed", "border is neither open nor closed");
+  p.open_border = border == "open";
   p.step = integer(json, "step", 0, MOST);
   p.seed = read_seed(member(json, "seed"));
   p.melting_point = integer(member(json, "material"), "melting_point", 0, 65535);

@@ -79,6 +79,7 @@ struct ViscousFlow {
 
 struct Parameters {
   std::array<Int, 3> grid{};
+  bool open_border = false;
   Int step = 0;
   std::uint64_t seed = 0;
   Int melting_point = 0, latent_heat = 0;

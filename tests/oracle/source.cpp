@@ -1,4 +1,4 @@
-// Vents and drains follow docs/automaton.md section 4.
+// Vents, drains and an open border follow docs/automaton.md section 4.
 #include <cstddef>
 
 #include "state.h"
@@ -27,15 +27,26 @@ void fill(State& state, const Region& vent, Int i) {
   state.touch(i);
 }
 
-void empty(State& state, const Region& drain, Int i) {
+void take(State& state, Int rate, Int i) {
   Cell& cell = state.cells[i];
-  const Int f = smaller(drain.rate, cell.amount);
+  const Int f = smaller(rate, cell.amount);
   cell.amount -= f;
   state.ledgers.mass.removed += f;
   state.ledgers.heat.removed += f * cell.heat;
   const Int energy = smaller(cell.energy, cell.amount);
   state.ledgers.energy.removed += cell.energy - energy;
   cell.energy = energy;
+}
+
+void empty(State& state, const Region& drain, Int i) { take(state, drain.rate, i); }
+
+void empty_border(State& state) {
+  for (Int z = 0; z < state.nz; ++z)
+    for (Int y = 0; y < state.ny; ++y)
+      for (Int x = 0; x < state.nx; ++x) {
+        const bool border = x == 0 || x == state.nx - 1 || z == 0 || z == state.nz - 1;
+        if (border && !state.blocked(x, y, z)) take(state, AMAX, state.index(x, y, z));
+      }
 }
 
 template <typename Action>
@@ -63,6 +74,7 @@ void act(State& state, const Region& region, Action action) {
 void source(State& state) {
   for (const Region& vent : state.parameters.vents) act(state, vent, fill);
   for (const Region& drain : state.parameters.drains) act(state, drain, empty);
+  if (state.parameters.open_border) empty_border(state);
   finish_phase(state, "after source");
 }
 

@@ -43,7 +43,7 @@ class SourceFaults : public Planted {
     Cell wrong = in;
     const int x = stage.came().x - stage.came().left + lane;
     for (const auto& opening : stage.open_)
-      if (opening.reach2 >= 0 && Faulty::square(x, opening.region.at.x) <= opening.reach2)
+      if (opening.reach2 >= 0 && stage.covers(opening, x))
         opening.vent ? stage.vent(opening, wrong) : Faulty::drain(opening, wrong);
     wrong.settle_state();
     give(stage, wrong, lane, out);

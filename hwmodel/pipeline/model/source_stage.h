@@ -1,4 +1,5 @@
 // Vents add liquid, and drains take it away. All open ones act on a cell, one after another, while it passes.
+// An open border is the last drain. It takes all that a cell of it holds, and compares where a ball squares.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,9 @@ struct Opening {
   UInt<16> rate, temperature;
   UInt<13> energy;  // per kOne of amount
   // Gives the greatest squared distance along x that is reached at the token's height and depth.
+  // That of the border is 0 where the token has cells of it, and -1 elsewhere.
   std::int64_t reach2 = 0;
+  bool border = false;
 };
 
 template <class Faults>
@@ -24,7 +27,7 @@ class Source final : public Stage {
  public:
   explicit Source(const Design& design, Faults faults = {})
       : Stage(StageKind::source, design, 0), faults_(faults), paper_(design.paper()), hot_(design.hot()) {
-    open_.reserve(design.parameters.vents.size() + design.parameters.drains.size());
+    open_.reserve(design.parameters.vents.size() + design.parameters.drains.size() + 1);
   }
 
   // Each opening squares the distance along x. A vent also has energy, two products and the dither of the
@@ -48,15 +51,14 @@ class Source final : public Stage {
     for (const rule::Drain& drain : design().parameters.drains)
       if (drain.from <= step() && step() < drain.until)
         open_.push_back({drain.region, false, drain.rate, 0, 0});
+    if (design().parameters.open_border) open_.push_back({{}, false, kAmountMax, 0, 0, 0, true});
   }
 
   void advance(const Cell* in, Cell* out) override {
     std::copy_n(in, lanes(), out);
     bool any = false;
     for (Opening& opening : open_) {
-      const std::int64_t radius = opening.region.radius;
-      opening.reach2 =
-          radius * radius - square(came().y, opening.region.at.y) - square(came().z, opening.region.at.z);
+      opening.reach2 = opening.border ? border_reach() : ball_reach(opening.region);
       any |= opening.reach2 >= 0;
     }
     if (!any) return;
@@ -65,6 +67,15 @@ class Source final : public Stage {
       out[lane] = treated(in[lane], lane);
       faults_.treated(*this, in[lane], lane, out[lane]);
     }
+  }
+
+  std::int64_t ball_reach(const rule::Region& ball) const {
+    return ball.radius * ball.radius - square(came().y, ball.at.y) - square(came().z, ball.at.z);
+  }
+
+  bool outermost_plane() const { return came().z == 0 || came().z == shape().grid.z - 1; }
+  std::int64_t border_reach() const {
+    return outermost_plane() || came().x == 0 || came().x + lanes() >= shape().grid.x ? 0 : -1;
   }
 
   // Returns the square of the distance along one axis, in sixteenths of a cell, from a cell's centre.
@@ -83,7 +94,13 @@ class Source final : public Stage {
   }
 
   bool reaches(const Opening& opening, int lane) const {
-    return opening.reach2 >= 0 && square(came().x + lane, opening.region.at.x) <= opening.reach2;
+    return opening.reach2 >= 0 && covers(opening, came().x + lane);
+  }
+
+  // Tells if an opening that reaches the token's height and depth has the cell at x.
+  bool covers(const Opening& opening, int x) const {
+    if (opening.border) return outermost_plane() || x == 0 || x == shape().grid.x - 1;
+    return square(x, opening.region.at.x) <= opening.reach2;
   }
 
   void vent(const Opening& opening, Cell& cell) const {

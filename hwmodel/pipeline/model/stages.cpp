@@ -15,7 +15,7 @@ std::vector<StageKind> stages_of_step(const Design& design) {
   const rule::Parameters& parameters = design.parameters;
   const rule::Heat& heat = parameters.heat;
 
-  if (!parameters.vents.empty() || !parameters.drains.empty()) add(source);
+  if (parameters.has_openings()) add(source);
   if (design.hot()) {
     add(conduction);
     if (heat.neighbours >= 18) add(edges);

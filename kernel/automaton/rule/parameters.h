@@ -182,7 +182,11 @@ struct Parameters {
   Material material;
   std::vector<Vent> vents;
   std::vector<Drain> drains;
+  bool open_border = false;  // all liquid of the outermost cells along x and z leaves, after the drains
   Flow flow;
+
+  // Tells if phase `source` may do anything.
+  bool has_openings() const { return !vents.empty() || !drains.empty() || open_border; }
 };
 
 }  // namespace voxmelt::rule

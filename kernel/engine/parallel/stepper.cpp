@@ -57,8 +57,9 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ =
+  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ = moved_ =
       Tiles(view.nz, view.tile_rows());
+  moved_.fill(all_words(view));
   dirty_.fill(all_words(view));  // the first state counts as changed everywhere
   if (heat_) heat_->note(dirty_);
   if (viscous_) viscous_->note(dirty_);
@@ -139,15 +140,22 @@ void Stepper::run(step::Phase phase, step::Moment moment, const step::Irradiance
 }
 
 void Stepper::source(const Job& job, simd::Books& books) {
-  if (parameters_.vents.empty() && parameters_.drains.empty()) return;
+  if (!parameters_.has_openings()) return;
   changed_.clear();
+  if (!job.sleep) moved_.fill(all_words(job.view));
   for (int z = 0; z < job.view.nz; ++z) changed_.edit(z);  // all slices, since the sources say which tiles
-  simd::run_sources(job.view, job.step, changed_.edit(0), changed_.stride(), books);
+  simd::run_sources(job.view, job.step, moved_.slice(0), changed_.edit(0), changed_.stride(), books);
   for (int z = 0; z < job.view.nz; ++z) changed_.tidy(z);
+  moved_.clear();  // the border has seen what the vents added, too
   untold_.add(changed_);
   dirty_.add(changed_);
   if (heat_) heat_->note(changed_);
   if (viscous_) viscous_->note(changed_);
+}
+
+void Stepper::note_matter(const Tiles& changed) {
+  untold_.add(changed);
+  if (parameters_.open_border) moved_.add(changed);
 }
 
 void Stepper::heat(const Job& job, simd::Books& books) {
@@ -167,7 +175,7 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   changed_.clear();
   open_sides(job.view);
   heat_->melt(job, changed_, books);
-  untold_.add(changed_);
+  note_matter(changed_);
   refresh(job.view, changed_, *walls_);
   if (sides_) melted_.add(changed_);
   dirty_.add(changed_);
@@ -186,7 +194,7 @@ void Stepper::gravity(const Job& job, simd::Books& books) {
   if (viscous_) {
     viscous_->fall(job, books);
     const Tiles& changed = viscous_->take_changed();
-    untold_.add(changed);
+    note_matter(changed);
     if (heat_) heat_->note(changed);
     return;
   }
@@ -200,7 +208,7 @@ void Stepper::spread(const Job& job, simd::Books& books) {
   if (viscous_) return viscous_->spread(job, books);
   paper_->spread(job, dirty_, dirty_next_, books);
   std::swap(dirty_, dirty_next_);
-  untold_.add(dirty_);
+  note_matter(dirty_);
   if (heat_) heat_->note(dirty_);
 }
 

@@ -33,6 +33,7 @@ class Stepper final : public step::HostStepper {
   void melt(const Job& job, simd::Books& books);
   void gravity(const Job& job, simd::Books& books);
   void tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const;
+  void note_matter(const Tiles& changed);  // by a phase after `source`
   void open_sides(const simd::View& view);
   void spread(const Job& job, simd::Books& books);
   void settle(const Job& job, simd::Books& books);
@@ -52,6 +53,7 @@ class Stepper final : public step::HostStepper {
   Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory
   Tiles changed_;               // changed by a phase
   Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
+  Tiles moved_;                 // open border: matter has changed since the last source
   Tiles melted_;                // tiles with melted solids that still count as sides
   Tiles freed_;                 // tiles that lost sides since the last gravity began
 };

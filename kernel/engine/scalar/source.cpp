@@ -1,4 +1,4 @@
-// Phase `source` lets vents add liquid and drains take it.
+// Phase `source` lets vents add liquid, and drains and an open border take it.
 #include "kernel/automaton/rule/source.h"
 
 #include <algorithm>
@@ -25,6 +25,36 @@ void for_region(const rule::Region& region, const state::Volume& volume, Visit&&
       for (int x = first(region.at.x); x <= last(region.at.x, g.x); ++x)
         if (rule::contains(region, x, y, z) && !volume.solid.test(x, y, z) && !volume.inert.test(x, y, z))
           visit(x, y, z);
+}
+
+// Calls visit(x, y, z) for the liquid cells of the border. Inner slices share the ends of each row with it.
+template <class Visit>
+void for_border(const state::Volume& volume, Visit&& visit) {
+  const state::Grid g = volume.grid;
+  for (int z = 0; z < g.z; ++z) {
+    const bool inner = z > 0 && z < g.z - 1;
+    const int stride = inner ? std::max(1, g.x - 1) : 1;
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; x += stride)
+        if (volume.liquid.test(x, y, z)) visit(x, y, z);
+  }
+}
+
+// Takes up to `rate` from a cell that is not blocked.
+void drain(int x, int y, int z, rule::Amount rate, state::Volume& volume, state::Ledger& ledger) {
+  const state::Slot i = volume.at(x, y, z);
+  const std::int32_t taken = rule::drained(volume.amount[i], rate);
+  if (taken == 0) return;
+  const std::int32_t left = volume.amount[i] - taken;
+  const std::int32_t lost = std::max(0, volume.energy[i] - left);
+  ledger.mass.removed += taken;
+  ledger.energy.removed += lost;
+  ledger.heat.removed += content_of(taken, volume.heat[i]);
+  add(volume.amount[i], -taken);
+  add(volume.energy[i], -lost);
+  if (left > 0) return;
+  volume.liquid.set(x, y, z, false);
+  volume.heat[i] = 0;
 }
 
 }  // namespace
@@ -57,24 +87,13 @@ void Reference::source(std::uint32_t step, Volume& volume, Ledger& ledger) {
     });
   }
 
-  for (const rule::Drain& drain : parameters_.drains) {
-    if (!rule::is_open(drain.from, drain.until, step)) continue;
-    for_region(drain.region, volume, [&](int x, int y, int z) {
-      const state::Slot i = volume.at(x, y, z);
-      const std::int32_t taken = rule::drained(volume.amount[i], drain.rate);
-      if (taken == 0) return;
-      const std::int32_t left = volume.amount[i] - taken;
-      const std::int32_t lost = std::max(0, volume.energy[i] - left);
-      ledger.mass.removed += taken;
-      ledger.energy.removed += lost;
-      ledger.heat.removed += content_of(taken, volume.heat[i]);
-      add(volume.amount[i], -taken);
-      add(volume.energy[i], -lost);
-      if (left > 0) return;
-      volume.liquid.set(x, y, z, false);
-      volume.heat[i] = 0;
-    });
+  for (const rule::Drain& one : parameters_.drains) {
+    if (!rule::is_open(one.from, one.until, step)) continue;
+    for_region(one.region, volume, [&](int x, int y, int z) { drain(x, y, z, one.rate, volume, ledger); });
   }
+
+  if (parameters_.open_border)
+    for_border(volume, [&](int x, int y, int z) { drain(x, y, z, rule::kAmountMax, volume, ledger); });
 }
 
 }  // namespace voxmelt::scalar

@@ -1,6 +1,7 @@
 #include "kernel/engine/simd/source.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -54,23 +55,64 @@ class Sources {
 
   void drain(const rule::Drain& drain) {
     for_cells(drain.region, [&](std::size_t i, std::uint64_t& wet, std::uint64_t bit) {
-      const std::int64_t had = v_.amount[i], taken = std::min<std::int64_t>(drain.rate, had);
-      if (taken == 0) return false;
-      const std::int64_t left = had - taken, energy = std::min<std::int64_t>(v_.energy[i], left);
-      books_.mass.removed += taken;
-      books_.energy.removed += v_.energy[i] - energy;
-      books_.heat.removed += taken * v_.heat[i];
-      v_.amount[i] = static_cast<std::uint16_t>(left);
-      v_.energy[i] = static_cast<std::uint16_t>(energy);
-      if (left == 0) {
-        wet &= ~bit;
-        v_.heat[i] = 0;
-      }
-      return true;
+      return take(drain.rate, i, wet, bit);
     });
   }
 
+  // Takes all liquid of the border. Where no tile of `moved` is, there was none, and none has come.
+  void open_border(const TileRow* moved) {
+    const TileRow ends = TileRow{1} | TileRow{1} << (v_.words - 1);
+    for (int z = 0; z < v_.nz; ++z) {
+      const bool whole = z == 0 || z == v_.nz - 1;
+      for (int r = 0; r < v_.tile_rows(); ++r) {
+        TileRow& changed = changed_[z * stride_ + r];
+        TileRow awake = (moved[z * stride_ + r] | changed) & (whole ? ~TileRow{0} : ends);
+        for (; awake != 0; awake &= awake - 1) {
+          const int w = std::countr_zero(awake);
+          if (empty_word(w, r, z, whole ? ~std::uint64_t{0} : border_of(w))) changed |= TileRow{1} << w;
+        }
+      }
+    }
+  }
+
  private:
+  // Takes up to `rate` from a cell that is not blocked. It returns true if the cell changed.
+  bool take(std::int64_t rate, std::size_t i, std::uint64_t& wet, std::uint64_t bit) {
+    const std::int64_t had = v_.amount[i], taken = std::min<std::int64_t>(rate, had);
+    if (taken == 0) return false;
+    const std::int64_t left = had - taken, energy = std::min<std::int64_t>(v_.energy[i], left);
+    books_.mass.removed += taken;
+    books_.energy.removed += v_.energy[i] - energy;
+    books_.heat.removed += taken * v_.heat[i];
+    v_.amount[i] = static_cast<std::uint16_t>(left);
+    v_.energy[i] = static_cast<std::uint16_t>(energy);
+    if (left == 0) {
+      wet &= ~bit;
+      v_.heat[i] = 0;
+    }
+    return true;
+  }
+
+  // Returns the cells of a word of x that are the first or the last of their row.
+  std::uint64_t border_of(int word) const {
+    const std::uint64_t first = word == 0 ? 1 : 0;
+    const std::uint64_t last = word == v_.words - 1 ? std::uint64_t{1} << ((v_.nx - 1) & 63) : 0;
+    return first | last;
+  }
+
+  // Takes all liquid of the cells `which` of a tile. It returns true if there was any.
+  bool empty_word(int word, int row, int z, std::uint64_t which) {
+    bool any = false;
+    for (int y = v_.tile_begin(row); y < v_.tile_end(row); ++y) {
+      std::uint64_t& wet = v_.liquid[v_.word(word, y, z)];
+      for (std::uint64_t left = wet & which; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        any |= take(65535, v_.cell(0, y, z) + 64 * word + bit, wet, std::uint64_t{1} << bit);
+      }
+    }
+    return any;
+  }
+
   // Calls act(slot, liquid word, bit) for the cells of a region that are not blocked. act returns true if the
   // cell changed.
   template <class Act>
@@ -104,12 +146,14 @@ class Sources {
 
 }  // namespace
 
-void run_sources(const View& view, const Step& step, TileRow* changed, std::ptrdiff_t stride, Books& books) {
+void run_sources(const View& view, const Step& step, const TileRow* moved, TileRow* changed,
+                 std::ptrdiff_t stride, Books& books) {
   Sources sources(view, step, changed, stride, books);
   for (const rule::Vent& vent : step.parameters->vents)
     if (vent.from <= step.number && step.number < vent.until) sources.vent(vent);
   for (const rule::Drain& drain : step.parameters->drains)
     if (drain.from <= step.number && step.number < drain.until) sources.drain(drain);
+  if (step.parameters->open_border) sources.open_border(moved);
 }
 
 }  // namespace voxmelt::simd

@@ -111,6 +111,7 @@ json flow_json(const rule::Flow& flow) {
 
 std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step) {
   json result = {{"grid", {grid.x, grid.y, grid.z}},
+                 {"border", parameters.open_border ? "open" : "closed"},
                  {"step", step},
                  {"seed", parameters.seed},
                  {"material",

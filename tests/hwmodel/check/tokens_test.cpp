@@ -34,6 +34,7 @@ Start falling() {
     if (start.parameters.heat.radiation) continue;
     start.parameters.vents.clear();
     start.parameters.drains.clear();
+    start.parameters.open_border = false;
     return start;
   }
 }

@@ -25,6 +25,7 @@ Parameters quiet(Law law) {
   Parameters p = law == Law::paper ? paper_showcase() : worlds::viscous(0.05);
   p.heat.enabled = true;
   p.heat.weight_face = 8000;
+  p.open_border = true;  // which no change of sources closes
   return p;
 }
 

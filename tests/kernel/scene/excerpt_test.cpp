@@ -50,6 +50,7 @@ TEST(Excerpt, MovesWhatHasAPlace) {
   const std::filesystem::path file = folder.write("whole.toml", R"(
 [grid]
 size = [30, 20, 22]
+border = "open"
 [heat]
 [heat.air]
 exchange = 0.01
@@ -86,9 +87,13 @@ rate = 0.06
   EXPECT_TRUE(is(part.parameters.drains.at(0).region.at, 5.25, 0, 13));
 
   const Excerpt excerpt(file, {});
-  EXPECT_EQ(excerpt.removable(), (std::vector<std::string>{"vent.0", "drain.0", "heat_source.0",
-                                                           "heat_source.1", "heat_source.2", "heat.air"}));
-  const Scene less = loaded(folder, file, {}, {{}, {6, 7, 8}, {"vent.0", "heat_source.1", "heat.air"}}, 5);
+  EXPECT_EQ(excerpt.removable(),
+            (std::vector<std::string>{"vent.0", "drain.0", "heat_source.0", "heat_source.1", "heat_source.2",
+                                      "grid.border", "heat.air"}));
+  const Scene less =
+      loaded(folder, file, {}, {{}, {6, 7, 8}, {"vent.0", "heat_source.1", "grid.border", "heat.air"}}, 5);
+  EXPECT_TRUE(part.parameters.open_border);
+  EXPECT_FALSE(less.parameters.open_border);
   EXPECT_TRUE(less.parameters.vents.empty());
   EXPECT_EQ(less.parameters.drains.size(), 1u);
   ASSERT_EQ(less.parameters.heat.sources.size(), 2u);

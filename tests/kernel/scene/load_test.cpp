@@ -285,6 +285,20 @@ TEST(Load, TheCamerasProjection) {
   EXPECT_FALSE(parallel("perspective"));
 }
 
+TEST(Load, TheBorder) {
+  const SceneFolder folder;
+  const auto loaded = [&](const std::string& key) {
+    return folder.load_text("[grid]\nsize = [8, 8, 8]\n" + key +
+                            "[[vent]]\nat = [4, 4, 4]\nradius = 1\nrate = 1\n");
+  };
+  EXPECT_FALSE(loaded("").parameters.open_border);
+  EXPECT_FALSE(loaded("border = 'closed'\n").parameters.open_border);
+  const Scene open = loaded("border = 'open'\n");
+  EXPECT_TRUE(open.parameters.open_border);
+  EXPECT_EQ(open.features, (std::vector<std::string>{"vent", "open_border", "diagonal"}));
+  EXPECT_TRUE(load_settings(open.settings, "a checkpoint").parameters.open_border);
+}
+
 TEST(Load, SubstepsOfTheViscousLaw) {
   const SceneFolder folder;
   const auto law = [&](const std::string& keys) {

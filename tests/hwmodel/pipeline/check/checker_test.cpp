@@ -28,6 +28,7 @@ Start warm_start(const std::function<bool(const Start&)>& strikes = [](const Sta
       continue;
     start.parameters.vents.clear();
     start.parameters.drains.clear();
+    start.parameters.open_border = false;
     start.step = 1;
     if (strikes(start)) return start;
   }
@@ -237,6 +238,7 @@ TEST(Checker, AValueTooWideForItsWireIsReportedWithItsStage) {
   Start start = hostile_start(3, rule::Law::paper, {4, 4, 4});
   start.parameters.heat = {};
   start.parameters.drains.clear();
+  start.parameters.open_border = false;
   start.parameters.vents = {{{{24, 24, 24}, 400}, 60000, 0, 8000, 2, 9}};
   start.volume = state::Volume({4, 4, 4});
   worlds::put_solid(start.volume, 0, 0, 0);
@@ -264,6 +266,7 @@ TEST(Checker, TheFailingStageIsNotTheFirst) {
   start.parameters.heat.weight_face = 65535;  // no scene file can say so
   start.parameters.vents = {{{{24, 24, 24}, 0}, 1, 0, 0, 50, 51}};
   start.parameters.drains.clear();
+  start.parameters.open_border = false;
   start.volume = state::Volume({3, 3, 3});
   worlds::for_each(worlds::whole(start.volume.grid),
                    [&](int x, int y, int z) { worlds::put_solid(start.volume, x, y, z, 4096, 65535); });

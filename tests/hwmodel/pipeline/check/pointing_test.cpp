@@ -22,6 +22,7 @@ Start start_with_sides(rule::Law law, bool hot, state::Grid grid) {
     rule::Heat& heat = start.parameters.heat;
     if (heat.enabled != hot || heat.radiation) continue;
     start.parameters.flow.fall.hang = 2000;
+    start.parameters.open_border = false;  // many drops hang beside the border
     return start;
   }
 }

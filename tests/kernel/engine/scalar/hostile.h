@@ -110,6 +110,7 @@ inline Parameters hostile_parameters(Random& random, rule::Law law, Grid g) {
     p.drains.push_back({region(), static_cast<rule::Amount>(random.any({1, 500, 65535})),
                         static_cast<std::uint32_t>(random.below(3)),
                         static_cast<std::uint32_t>(random.between(1, 9))});
+  p.open_border = random.one_in(4);
   return p;
 }
 

@@ -63,7 +63,8 @@ double run_both(const cpu::InstructionSet set, World world, Random& random, bool
     };
     const Volume at_begin = v;
     reference.run(Phase::source, step::Moment(s), light, expected, books);
-    run_sources(view, step, changed.data(), view.tile_rows(), own);
+    const TileSet everywhere(view, true);
+    run_sources(view, step, everywhere.slice(0), changed.data(), view.tile_rows(), own);
     compare("source", at_begin);
     for_melt.add(changed);
 

@@ -127,8 +127,10 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                     {{{.step = 6, .power = 12}}, sky}};
   p.vents = {{}};
   p.drains = {{}};
+  p.open_border = true;
   const std::string json = parameters_json(p, {3, 4, 5}, 17);
   for (const char* key : {"grid",
+                          "border",
                           "step",
                           "seed",
                           "material",
@@ -206,7 +208,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
       std::string::npos)
       << dense;
   for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623",
-                            "\"law\": \"paper\""})
+                            "\"law\": \"paper\"", "\"border\": \"open\""})
     EXPECT_NE(json.find(value), std::string::npos) << value;
 }
 
