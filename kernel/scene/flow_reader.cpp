@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/rule/relax.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/units.h"
 
