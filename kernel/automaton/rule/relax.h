@@ -47,26 +47,25 @@ VOXMELT_RULE std::int32_t leveling(std::int64_t conductance, std::int32_t slope,
 }
 
 // Returns the head that a cell has at the end of stage j, integrated over time, in 1/32768 cell. `head` is in
-// 1/512 cell, and `change` is what neighbours have added.
+// 1/512 cell, from two cells below its own on, and `change` is what neighbours have added.
 VOXMELT_RULE std::int32_t integrated(std::int32_t head, std::int32_t change, int j, Relaxation relaxation) {
   return static_cast<std::int32_t>((static_cast<std::int64_t>(head) * relaxation.time(j)) >> 10) + change;
 }
 
-// Returns what a cell takes from its neighbour in one stage.
-VOXMELT_RULE std::int32_t leveled(std::int32_t own, std::int32_t neighbour, std::int32_t leveling) {
-  const std::int32_t difference = neighbour - own;
-  const std::int32_t size = std::min(kMostDifference, difference < 0 ? -difference : difference);
-  const std::int32_t taken = static_cast<std::int32_t>((static_cast<std::int64_t>(leveling) * size) >> 16);
-  return difference < 0 ? -taken : taken;
+// Returns what the higher cell gives to the lower one in one stage. They differ by `difference`, at least 0.
+VOXMELT_RULE std::int32_t leveled(std::int32_t difference, std::int32_t leveling) {
+  return static_cast<std::int32_t>(
+      (static_cast<std::int64_t>(leveling) * std::min(kMostDifference, difference)) >> 16);
 }
 
 // Holds how the relaxed head of a cell moves away from its head.
 struct Relaxing {
   std::int32_t impetus = 0, change = 0;
 
-  // Adds stage j, 2 <= j, in which the neighbours gave `taken`.
-  VOXMELT_RULE void add(std::int32_t taken, int j) {
-    impetus = std::clamp(impetus + (2 * j - 1) * taken, -kMostImpetus, kMostImpetus);
+  // Adds stage j, 2 <= j, with the sums of what the cell took and gave.
+  VOXMELT_RULE void add(std::int32_t taken, std::int32_t given, int j) {
+    const std::int32_t gain = std::min(65535, taken) - std::min(65535, given);
+    impetus = std::clamp(impetus + (2 * j - 1) * gain, -kMostImpetus, kMostImpetus);
     change += (impetus * ((4096 + j / 2) / j)) >> 12;
   }
 };

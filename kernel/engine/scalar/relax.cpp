@@ -48,16 +48,21 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
   for (int stage = 1;; ++stage) {
     rows.for_each([&](int x, int y, int z) {
       const state::Slot i = cells.at(x, y, z);
-      if (in_run_[i]) relaxed_[i] = rule::integrated(head_[i], relaxing[i].change, stage, relaxation);
+      const std::int32_t own_head = head_[i] - (y - 2) * rule::kHeadOne;
+      if (in_run_[i]) relaxed_[i] = rule::integrated(own_head, relaxing[i].change, stage, relaxation);
     });
     if (stage == relaxation.stages) return;
-    state::Field<std::int32_t> taken(volume.grid);
+    state::Field<std::int32_t> taken(volume.grid), given(volume.grid);
     for_each_pair([&](int, int, int, state::Slot i, state::Slot j, std::size_t d) {
-      taken[i] += rule::leveled(relaxed_[i], relaxed_[j], leveling[d][i]);
+      const std::int32_t rise = relaxed_[j] - relaxed_[i];
+      if (rise > 0)
+        taken[i] += rule::leveled(rise, leveling[d][i]);
+      else
+        given[i] += rule::leveled(-rise, leveling[d][i]);
     });
     rows.for_each([&](int x, int y, int z) {
       const state::Slot i = cells.at(x, y, z);
-      relaxing[i].add(taken[i], stage + 1);
+      relaxing[i].add(taken[i], given[i], stage + 1);
     });
   }
 }
