@@ -56,7 +56,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
   if (parameters.flow.law == rule::Law::paper)
     paper_.emplace(parameters, view, chunks);
   else
-    viscous_.emplace(grid, view, chunks);
+    viscous_.emplace(parameters.flow.viscous, grid, view, chunks);
   dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ =
       Tiles(view.nz, view.tile_rows());
   dirty_.fill(all_words(view));  // the first state counts as changed everywhere
@@ -98,6 +98,11 @@ simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::
   if (parameters.flow.law == rule::Law::paper) return step;
   const auto k = static_cast<std::uint32_t>(moment.substep), n = static_cast<std::uint32_t>(moment.substeps);
   step.substeps = n;
+  const rule::Relaxation relaxation{moment.stages};
+  step.stages = relaxation.stages;
+  step.relaxed_reach = relaxation.reach();
+  step.relaxed_bits = relaxation.bits();
+  step.relaxed_scale = relaxation.scale();
   for (std::uint32_t axis = 0; axis < 4; ++axis) {
     step.pair_dither[axis] = (dither + 16384 * axis) & 0xFFFF;
     step.turn[axis] = 65536 * ((k + axis * n / 4) % n);
