@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/automaton/rule/relax.h"
 #include "kernel/engine/simd/source.h"
 
 namespace voxmelt::parallel {
