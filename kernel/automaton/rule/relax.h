@@ -12,9 +12,8 @@
 namespace voxmelt::rule {
 
 inline constexpr int kMostStages = 16;
-inline constexpr std::int32_t kRelaxedOne = 32768;               // one cell of relaxed head
-inline constexpr std::int32_t kMostImpetus = (1 << 20) - 1;      // 32 cells
-inline constexpr std::int32_t kMostDifference = kRelaxedOne - 1;  // of two heads in a stage
+inline constexpr std::int32_t kRelaxedOne = 32768;           // one cell of relaxed head
+inline constexpr std::int32_t kMostImpetus = (1 << 20) - 1;  // 32 cells
 
 struct Relaxation {
   int stages = 1;  // 1..kMostStages; with one, heads are as they are
@@ -52,10 +51,12 @@ VOXMELT_RULE std::int32_t integrated(std::int32_t head, std::int32_t change, int
   return static_cast<std::int32_t>((static_cast<std::int64_t>(head) * relaxation.time(j)) >> 10) + change;
 }
 
-// Returns what the higher cell gives to the lower one in one stage. They differ by `difference`, at least 0.
-VOXMELT_RULE std::int32_t leveled(std::int32_t difference, std::int32_t leveling) {
-  return static_cast<std::int32_t>(
-      (static_cast<std::int64_t>(leveling) * std::min(kMostDifference, difference)) >> 16);
+// Returns what the higher cell gives to the lower one after stage j. Their integrated heads differ by
+// `difference`, at least 0. It counts up to a difference of one cell all the time.
+VOXMELT_RULE std::int32_t leveled(std::int32_t difference, std::int32_t leveling, int j,
+                                  Relaxation relaxation) {
+  const std::int64_t counted = std::min(relaxation.time(j) >> 1, difference);
+  return static_cast<std::int32_t>((leveling * counted) >> 16);
 }
 
 // Holds how the relaxed head of a cell moves away from its head.

@@ -56,9 +56,9 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
     for_each_pair([&](int, int, int, state::Slot i, state::Slot j, std::size_t d) {
       const std::int32_t rise = relaxed_[j] - relaxed_[i];
       if (rise > 0)
-        taken[i] += rule::leveled(rise, leveling[d][i]);
+        taken[i] += rule::leveled(rise, leveling[d][i], stage, relaxation);
       else
-        given[i] += rule::leveled(-rise, leveling[d][i]);
+        given[i] += rule::leveled(-rise, leveling[d][i], stage, relaxation);
     });
     rows.for_each([&](int x, int y, int z) {
       const state::Slot i = cells.at(x, y, z);

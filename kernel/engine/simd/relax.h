@@ -139,6 +139,7 @@ class RelaxLayer : ViscousPairs<Arch, true> {
     const Wide own = L::unpack(L::load(low + at), L::load(high + at));
     V taken = L::zero(), given = L::zero();
     const std::ptrdiff_t steps[4] = {1, row_, row_ + 1, row_ - 1};
+    const V most = L::set(time(j - 1) >> 1);  // one cell all the time
     for (int axis = 0; axis < 4; ++axis)
       for (const bool forth : {true, false}) {
         const std::ptrdiff_t there = forth ? at + steps[axis] : at - steps[axis];
@@ -146,13 +147,13 @@ class RelaxLayer : ViscousPairs<Arch, true> {
         const Wide other = L::unpack(L::load_any(low + there), L::load_any(high + there));
         const V up = L::narrow({other.low - own.low, other.high - own.high});
         const V down = L::narrow({own.low - other.low, own.high - other.high});
-        taken = L::add_saturated(taken, L::high(leveling, L::min(up, L::set(32767))));
-        given = L::add_saturated(given, L::high(leveling, L::min(down, L::set(32767))));
+        taken = L::add_saturated(taken, L::high(leveling, L::min(up, most)));
+        given = L::add_saturated(given, L::high(leveling, L::min(down, most)));
       }
     const Wide more = L::widen(taken), less = L::widen(given);
-    const W weight(2 * j - 1), part((4096 + j / 2) / j), most((1 << 20) - 1);
+    const W weight(2 * j - 1), part((4096 + j / 2) / j), impetus_most((1 << 20) - 1);
     const auto grown = [&](W impetus, W gain) VOXMELT_LAMBDA {
-      return xsimd::min(xsimd::max(impetus + gain * weight, W(0) - most), most);
+      return xsimd::min(xsimd::max(impetus + gain * weight, W(0) - impetus_most), impetus_most);
     };
     Wide impetus = get(m_.impetus, i), change = get(m_.change, i);
     impetus = {grown(impetus.low, more.low - less.low), grown(impetus.high, more.high - less.high)};
