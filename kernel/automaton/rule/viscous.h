@@ -187,12 +187,19 @@ VOXMELT_RULE bool gives(const Column& giver, const Column& taker, bool diagonal)
   const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
   return giver.in_run && giver.head - taker.head > dead;
 }
+// Returns the limit of both mobilities together. Only heads of runs relax, so a taker that stands on a run
+// gets no more than one sub-step of many would give it.
+VOXMELT_RULE std::int64_t most_mobility(const Column& giver, const Column& taker, Relaxation relaxation) {
+  const int bits = relaxation.bits();
+  if (taker.in_run || !relaxation.relaxes()) return std::int64_t{giver.limit} << (9 + bits);
+  return std::max<std::int64_t>(1, (std::int64_t{giver.limit} * relaxation.scale()) >> (14 + bits))
+         << (8 + bits);
+}
 // Returns what flows at a drop of two cells, in 1/2^24 cell. Half of it flows at a drop of one.
 VOXMELT_RULE std::int64_t conductance(const Column& giver, std::int32_t a, const Column& taker,
                                       std::int32_t b, Relaxation relaxation = {}) {
   std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
-  if (taker.limit > 0)
-    mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << (9 + relaxation.bits()));
+  if (taker.limit > 0) mobilities = std::min(mobilities, most_mobility(giver, taker, relaxation));
   const std::int64_t flowing = flowing_amount(giver, a, taker, b);
   return std::min<std::int64_t>((std::int64_t{1} << (24 + relaxation.bits())) - 1,
                                 (mobilities * flowing) >> 12);

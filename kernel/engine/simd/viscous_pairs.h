@@ -189,7 +189,15 @@ class ViscousPairs {
     const V all = a.fine + b.fine, carried = L::add_if(L::less(all, a.fine), a.coarse + b.coarse, L::set(1));
     // If the taker is, or stands on, a run, the mobility is at most twice the giver's limit.
     const V giver = L::select(gives, own.limit, limit), taker = L::select(gives, limit, own.limit);
-    const V most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), giver + giver);
+    V most = giver + giver;
+    if constexpr (kRelaxed) {
+      // Only heads of runs relax. To what stands on a run no more flows than in one sub-step of many.
+      V one = L::high(giver, L::set(step_.relaxed_scale));
+      if (step_.relaxed_bits > 2) one = L::high(one, L::set(1 << (18 - step_.relaxed_bits)));
+      one = L::max(one, L::set(1));
+      most = L::select(here_runs, L::select(there_runs, most, one), one);
+    }
+    most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), most);
     return {L::min(carried, most), L::keep(L::less(carried, most), all)};
   }
 
