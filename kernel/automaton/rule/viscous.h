@@ -226,21 +226,25 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
   return std::min(wanted, most_flow(a, taker, b, diagonal));
 }
 
-// Returns the same flow where heads relax. `fall` is by how much the giver's relaxed head is above the
-// taker's, in 1/32768 cell. It counts if both are in a run.
+// Returns the same flow where heads relax. If both are in a run, `fall` counts: by how much the giver's
+// relaxed head is above the taker's, in 1/32768 cell. It may be below 0. Then the liquid flows back, and so
+// does the result.
 VOXMELT_RULE std::int32_t relaxed_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither, int blocked_beside,
                                        std::int32_t fall, Relaxation relaxation) {
   if (!gives(giver, taker, diagonal)) return 0;
   const std::int32_t most = (diagonal ? 724 : kHeadOne) * (kRelaxedOne / kHeadOne);
   const std::int32_t own = std::min(giver.head - taker.head, 1024) * (kRelaxedOne / kHeadOne);
-  const std::int64_t drop = std::clamp(taker.in_run ? fall : own, 0, most);
+  const bool back = taker.in_run && fall < 0;
+  const std::int64_t drop = std::min(taker.in_run ? (back ? -fall : fall) : own, most);
   const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
   const std::int64_t drive = (2 * slope * drop) >> 16;  // 1/16384 cell
   const int bits = relaxation.bits();
   const std::int64_t product = (conductance(giver, a, taker, b, relaxation) * drive) >> (8 + bits);
   const std::int64_t offset = (std::int64_t{dither} << (diagonal ? 5 : 3)) >> bits;
   const std::int64_t wanted = (product + offset) >> ((diagonal ? 21 : 19) - bits);
+  if (back)
+    return -static_cast<std::int32_t>(std::min<std::int64_t>(wanted, most_flow(b, giver, a, diagonal)));
   return static_cast<std::int32_t>(std::min<std::int64_t>(wanted, most_flow(a, taker, b, diagonal)));
 }
 

@@ -1,4 +1,5 @@
 // Phase `spread` of the viscous law lets liquid flow down the difference of free-surface heads.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -63,8 +64,9 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
                    : rule::viscous_flow(from, volume.amount[a], to_there, volume.amount[b], diagonal, offset,
                                         walls);
       };
-      out += flow(own, i, there, j);
-      const std::int32_t taken = flow(there, j, own, i);
+      const std::int32_t given = flow(own, i, there, j) - flow(there, j, own, i);  // one of them is 0
+      const std::int32_t taken = std::max(0, -given);
+      out += std::max(0, given);
       in += taken;
       content += content_of(taken, volume.heat[j]);
     }

@@ -101,6 +101,8 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     Pair p;
     if (!this->template look<kDiagonal>(own, at, axis, part, m, m.pair[axis], deep, p)) return L::zero();
     const M runs = L::from_bits(m.in_run & m.there[axis], part);
+    V drop;
+    if constexpr (kFeatures.relaxed) drop = this->template relaxed_drop<kDiagonal>(p, at, axis, runs);
     const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), p.taker);
     V most = L::high(L::min(p.giver, room), L::set(13107));
     if constexpr (kDiagonal) most = L::template shift_right<2>(most);
@@ -108,7 +110,7 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     V flow;
     if constexpr (kFeatures.relaxed) {
       may_flow = true;
-      flow = L::min(relaxed<kDiagonal>(p, own, at, axis, runs, gate), most);
+      flow = L::min(relaxed<kDiagonal>(p, own, drop, axis, gate), most);
     } else {
       flow = L::min(wanted<kDiagonal>(p, own, axis, gate, most, may_flow), most);
     }
@@ -134,10 +136,9 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     return L::template shift_right<kShift>(sum);
   }
 
-  // Returns what relaxed heads let flow, at most 65535. (c drive >> (8 + bits)) has 32 bits.
+  // Returns the drop of relaxed heads, in 1/32768 cell, and turns the pair round if it is below 0.
   template <bool kDiagonal>
-  [[gnu::always_inline]] V relaxed(const Pair& p, const Cell& own, std::ptrdiff_t at, int axis, M runs,
-                                   M gate) const {
+  [[gnu::always_inline]] V relaxed_drop(Pair& p, std::ptrdiff_t at, int axis, M runs) const {
     constexpr int kMost = kDiagonal ? 724 : 512;
     const std::ptrdiff_t there = at + to_other_[axis];
     const Wide a = L::unpack(L::load(r_.relaxed_low + at), L::load(r_.relaxed_high + at));
@@ -145,7 +146,20 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     const V down = L::narrow({a.low - b.low, a.high - b.high});
     const V up = L::narrow({b.low - a.low, b.high - a.high});
     const V own_drop = L::template shift_left<6>(L::min(p.drop, L::set(kMost)));
-    const V drop = L::min(L::select(runs, L::select(p.gives, down, up), own_drop), L::set(64 * kMost));
+    const V gives = L::keep(p.gives, L::set(1));
+    const V now = L::select(
+        runs, L::select(L::less(L::zero(), down | up), L::keep(L::less(up, down), L::set(1)), gives), gives);
+    const M turns = L::less(L::zero(), gives ^ now);
+    const V giver = L::select(turns, p.taker, p.giver);
+    p.taker = L::select(turns, p.giver, p.taker);
+    p.giver = giver;
+    p.gives = L::less(L::zero(), now);
+    return L::min(L::select(runs, down | up, own_drop), L::set(64 * kMost));
+  }
+
+  // Returns what relaxed heads let flow, at most 65535. (c drive >> (8 + bits)) has 32 bits.
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V relaxed(const Pair& p, const Cell& own, V drop, int axis, M gate) const {
     V drive = L::template shift_right<1>(drop), factor;  // in 1/16384 cell
     if (!this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor))
       drive = L::high(drop, L::template shift_left<1>(factor));
