@@ -78,10 +78,9 @@ class RelaxLayer : ViscousPairs<Arch, true> {
     for (int axis = 0; axis < 4; ++axis) {
       const std::uint64_t among = m.pair[axis] & m.in_run & m.there[axis];
       if (!L::in_part(among, part)) continue;
-      const V leveling = axis < 2 ? level_pair<false>(own, item.cell, axis, part, m, among, deep)
-                                  : level_pair<true>(own, item.cell, axis, part, m, among, deep);
+      const V leveling = axis < 2 ? level_pair<false>(own, item.cell, axis, part, m, among, deep, any)
+                                  : level_pair<true>(own, item.cell, axis, part, m, among, deep, any);
       L::store(m_.leveling[axis] + item.place, leveling);
-      any |= L::nonzero(leveling);
     }
     return any;
   }
@@ -89,9 +88,10 @@ class RelaxLayer : ViscousPairs<Arch, true> {
   // Returns what the pairs level of their difference in a stage, in 1/65536, and at most 65535.
   template <bool kDiagonal>
   [[gnu::always_inline]] V level_pair(const Cell& own, std::ptrdiff_t at, int axis, int part, const Masks& m,
-                                      std::uint64_t among, bool deep) const {
+                                      std::uint64_t among, bool deep, bool& any) const {
     Pair p;
     if (!this->template look<kDiagonal>(own, at, axis, part, m, among, deep, p)) return L::zero();
+    any = true;
     const M gate = L::from_bits(p.moves << (part * L::kCount), part);
     V factor = L::set(16384);
     this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor);
