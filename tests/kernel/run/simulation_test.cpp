@@ -151,10 +151,11 @@ TEST(Simulation, SubstepsSettleAndSpreadAndFallOnce) {
                                     excess, spread, excess, spread, gravity};
   ASSERT_EQ(Recorder::calls.size(), 20u);
   for (std::size_t i = 0; i < 20; ++i) {
-    const auto& [phase, step, substep, substeps, irradiance] = Recorder::calls[i];
+    const auto& [phase, step, substep, substeps, irradiance, stages] = Recorder::calls[i];
     EXPECT_EQ(phase, order[i % 10]);
     EXPECT_EQ(step, i / 10);
     EXPECT_EQ(substeps, 3);
+    EXPECT_EQ(stages, 1);
     if (phase == excess || phase == spread) {
       EXPECT_EQ(substep, static_cast<int>(i % 10 - 3) / 2);
     }
