@@ -44,7 +44,9 @@ scene::Scene load_beginning(VerifyCommand& command) {
   return std::move(begin.scene);
 }
 
-void check_tile(const scene::Scene& scene, const hwmodel::Configuration& configuration) {
+void check_pipeline(const scene::Scene& scene, const hwmodel::Configuration& configuration) {
+  const std::string missing = hwmodel::unmodelled_rule(scene.parameters);
+  if (!missing.empty()) throw UsageError(fmt::format("error: {}", missing));
   const std::string problem = hwmodel::tile_problem(scene.parameters, scene.initial.grid, configuration);
   if (!problem.empty()) throw UsageError(fmt::format("error: hw.tile: {}", problem));
 }

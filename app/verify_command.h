@@ -38,8 +38,8 @@ int verify_whole_machine(VerifyCommand command);
 std::filesystem::path find_preset(const std::string& given);
 // Reads --from.
 scene::Scene load_beginning(VerifyCommand& command);
-// Throws UsageError if its tiles are too narrow for the scene.
-void check_tile(const scene::Scene& scene, const hwmodel::Configuration& configuration);
+// Throws UsageError if it has no stage for a rule of the scene, or if its tiles are too narrow.
+void check_pipeline(const scene::Scene& scene, const hwmodel::Configuration& configuration);
 // Returns the first step in which a planted fault may strike, if the user names none.
 std::uint32_t plant_step(const VerifyCommand& command, std::uint32_t first_step);
 

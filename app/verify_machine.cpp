@@ -196,7 +196,7 @@ int verify_whole_machine(VerifyCommand command) {
   const hwmodel::Preset preset =
       hwmodel::load_preset(find_preset(command.hw), command.hw_sets, hwmodel::Runs::machine);
   scene::Scene scene = load_beginning(command);
-  check_tile(scene, preset.configuration);
+  check_pipeline(scene, preset.configuration);
   check_replay_place(command, scene);
   check_report_place(command.common, replay_place(command, scene).string());
   check_html_place(command.common, choice, replay_place(command, scene).string());

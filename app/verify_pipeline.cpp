@@ -92,7 +92,7 @@ Job job_of(VerifyCommand& command) {
   hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   Job job{command, std::move(preset), load_beginning(command),
           fault == nullptr ? hwmodel::Fault::none : fault->fault};
-  check_tile(job.scene, job.preset.configuration);
+  check_pipeline(job.scene, job.preset.configuration);
   if (!command.size_fifos.empty() && job.preset.caster.dram && job.preset.configuration.coded &&
       job.scene.parameters.flow.law == rule::Law::viscous && job.scene.parameters.flow.viscous.substeps != 1)
     throw UsageError(

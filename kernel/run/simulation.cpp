@@ -96,7 +96,7 @@ void Simulation::begin_step() {
   substep_ = 0;
   if (parameters_.heat.is_visibility_step(step_number())) find_irradiance();
   volume_.changed.begin();
-  if (host_ != nullptr) substeps_ = count_substeps();  // a device counts its own
+  if (host_ != nullptr) cadence_ = count_substeps();  // a device counts its own
 }
 
 // Masks that a device has sent without the rest of its state count as changed everywhere.
@@ -113,13 +113,13 @@ void Simulation::find_irradiance() {
   if (host_ != nullptr && changed != nullptr) host_->tell_irradiance(*changed);
 }
 
-int Simulation::count_substeps() const {
-  if (parameters_.flow.law == rule::Law::paper) return 1;
+step::Cadence Simulation::count_substeps() const {
+  if (parameters_.flow.law == rule::Law::paper) return {};
   return scalar::count_substeps(parameters_, volume_);
 }
 
 std::vector<step::Phase> Simulation::phases() const {
-  return step::phase_order(parameters_.flow.law, substeps_);
+  return step::phase_order(parameters_.flow.law, cadence_.substeps);
 }
 
 void Simulation::run_phase(step::Phase phase) {

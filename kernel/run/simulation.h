@@ -42,8 +42,8 @@ class Simulation {
     ++steps_done_;
     untold_ = true;
   }
-  int substeps() const { return substeps_; }  // count of the step that has begun last
-  step::Moment moment() const { return {step_number(), substep_, substeps_}; }  // moment of the next phase
+  int substeps() const { return cadence_.substeps; }  // count of the step that has begun last
+  step::Moment moment() const { return {step_number(), substep_, cadence_}; }  // moment of the next phase
 
   // Replaces heat sources, vents and drains between two steps. Vents and drains take effect at the next step,
   // and heat sources at the next step of visibility (docs/automaton.md, section 5). The bits are as if the
@@ -87,7 +87,7 @@ class Simulation {
   void make_stepper();
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
-  int count_substeps() const;
+  step::Cadence count_substeps() const;
   void fetch() const {
     if (behind_) download();
   }
@@ -115,7 +115,8 @@ class Simulation {
   std::int64_t irradiance_capped_ = 0;
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
-  int substeps_ = 1, substep_ = 0;  // substep_: sub-step of the next phase
+  step::Cadence cadence_;
+  int substep_ = 0;  // of the next phase
   state::Seconds seconds_;
   visibility::Casts casts_before_;  // before the run was resumed
 };

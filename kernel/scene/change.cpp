@@ -99,6 +99,7 @@ const std::vector<std::string>& changeable_keys() {
                                              "flow.viscous.stiffness",
                                              "flow.viscous.substeps",
                                              "flow.viscous.substeps_max",
+                                             "flow.viscous.stages_max",
                                              "flow.thermal.reference",
                                              "flow.thermal.doubling"};
   return keys;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/automaton/rule/relax.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/units.h"
 
@@ -98,6 +99,7 @@ rule::ViscousLaw read_viscous(Reader& reader) {
   law.stiffness = reader.integer<std::uint8_t>("stiffness", 1, 8, 8);
   law.substeps = read_substeps(reader);
   law.substeps_max = reader.integer("substeps_max", 1, kMostSubsteps, kUsualSubsteps);
+  law.stages_max = reader.integer<std::uint16_t>("stages_max", 1, rule::kMostStages, 1);
   reader.finish();
   return law;
 }

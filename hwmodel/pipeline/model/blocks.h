@@ -47,7 +47,7 @@ class StepBlock {
     for (const auto& stage : stages_) {
       if (stage->kind() == StageKind::settle) ++copy;
       const bool works = position < pass.steps && pass.uses(stage->kind(), copy);
-      const step::Moment moment{step, pass.substep + std::max(copy, 0), pass.substeps};
+      const step::Moment moment{step, pass.substep + std::max(copy, 0), {pass.substeps}};
       first ? stage->begin_pass(moment, !works, pass.tile) : stage->add_pass(moment, !works, pass.tile);
     }
   }

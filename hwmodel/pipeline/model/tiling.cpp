@@ -31,6 +31,8 @@ int reach_of_step(const Design& design) {
 }
 
 Design design_of(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration) {
+  if (const std::string problem = unmodelled_rule(parameters); !problem.empty())
+    throw std::invalid_argument(problem);
   Design design{parameters, {grid, configuration.lanes}, configuration.substeps};
   Shape& shape = design.shape;
   const int blocks = shape.grid_blocks(), widest = configuration.tile / configuration.lanes;
@@ -41,6 +43,11 @@ Design design_of(const rule::Parameters& parameters, state::Grid grid, const Con
   shape.tile = widest;
   shape.tile = width_of(blocks, shape.halo, shape.tiles());  // no wider than before
   return design;
+}
+
+std::string unmodelled_rule(const rule::Parameters& parameters) {
+  if (parameters.flow.law == rule::Law::paper || !parameters.flow.viscous.relaxes()) return {};
+  return "flow.viscous.stages_max above 1: the pipeline has no stage that relaxes heads";
 }
 
 std::string tile_problem(const rule::Parameters& parameters, state::Grid grid,

@@ -18,6 +18,9 @@ int reach_of_step(const Design& design);
 // std::invalid_argument if there is a problem.
 Design design_of(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration);
 
+// Tells which rule of a scene has no stage. The text is empty if all have.
+std::string unmodelled_rule(const rule::Parameters& parameters);
+
 // Tells why the tiles of a configuration would be too narrow. The text is empty if they are not.
 std::string tile_problem(const rule::Parameters& parameters, state::Grid grid,
                          const Configuration& configuration);

@@ -161,8 +161,10 @@ struct ViscousLaw {
   // The law settles and spreads so often in a step, 1..1024. With 0 it is as often as the state needs.
   std::uint16_t substeps = 1;
   std::uint16_t substeps_max = 1024;  // upper bound if `substeps` is 0
+  std::uint16_t stages_max = 1;       // upper bound of the stages by which heads relax, 1..16; 1 is off
 
   bool counts_substeps() const { return substeps == 0; }
+  bool relaxes() const { return stages_max > 1; }
 };
 
 struct Flow {

@@ -9,6 +9,7 @@
 
 #include "kernel/automaton/rule/fixed_point.h"
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/rule/relax.h"
 
 namespace voxmelt::rule {
 
@@ -30,6 +31,11 @@ VOXMELT_RULE std::int32_t settled(std::int64_t mass, std::int32_t n, std::int32_
   constexpr std::int64_t headroom = kAmountMax - kOne;
   const std::int64_t stacked = std::clamp<std::int64_t>(over - headroom * (n - 1 - k), 0, headroom);
   return static_cast<std::int32_t>(base + stacked);
+}
+
+// Returns how many cells of that run hold something then.
+VOXMELT_RULE std::int32_t settled_cells(std::int64_t mass, std::int32_t n) {
+  return static_cast<std::int32_t>(std::min<std::int64_t>(n, (mass + kOne - 1) / kOne));
 }
 
 // Heat moves through the faces of a run when it settles. The excess at the face above cell k is what cells
@@ -60,7 +66,7 @@ struct Column {
   std::int32_t dead;      // head differences up to this do not move it (yield stress; at least one unit)
   bool in_run;
   std::int32_t bed = kNoBed;  // 1/16 cell from the grid's bottom
-  std::int32_t limit = 0;     // 1/65536, bound of the mobility; 0: no run here or below
+  std::int32_t limit = 0;     // 1/2^(16 - bits), bound of the mobility; 0: no run here or below
   bool limited = false;       // the limit has cut the mobility
 };
 
@@ -98,9 +104,12 @@ VOXMELT_RULE std::int64_t run_mobility(std::int64_t mass, std::int32_t h, const 
   std::int64_t mobility = (pace * (depth * depth >> 8) + (1 << 23)) >> 24;
   return flow.thermal_viscosity ? warmed(mobility, h, flow) : mobility;
 }
-// Limits the mobility, in 1/65536. So a column gives at most a fifth of a cell of height to another column.
-VOXMELT_RULE std::int32_t run_limit(std::int64_t mass, std::int64_t over, const ViscousLaw& law) {
-  const std::int64_t limit = 13107 / ((mass >> 12) + 1) / (over > 0 ? law.stiffness : 1);
+// Limits the mobility, in 1/2^(16 - bits). So a column gives at most a fifth of a cell of height to another
+// column, in each of the sub-steps that a relaxation stands for.
+VOXMELT_RULE std::int32_t run_limit(std::int64_t mass, std::int64_t over, const ViscousLaw& law,
+                                    Relaxation relaxation = {}) {
+  const std::int64_t one = 13107 / ((mass >> 12) + 1) / (over > 0 ? law.stiffness : 1);
+  const std::int64_t limit = (one * relaxation.reach()) >> relaxation.bits();
   return static_cast<std::int32_t>(std::max<std::int64_t>(1, limit));
 }
 // Returns the number of sub-steps with which no limit cuts the mobility of this run.
@@ -113,7 +122,7 @@ VOXMELT_RULE std::int64_t needed_substeps(std::int64_t mass, std::int32_t n, std
 
 // Returns what a run of n cells with sum `mass` and mean heat content h shows. Its bed is at `bed`.
 VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t bed, std::int32_t h,
-                               const Flow& flow, int substeps = 1) {
+                               const Flow& flow, int substeps = 1, Relaxation relaxation = {}) {
   const ViscousLaw& law = flow.viscous;
   const std::int64_t over = std::max<std::int64_t>(0, mass - std::int64_t{n} * kOne);
   const auto depth = static_cast<std::int32_t>(std::max<std::int64_t>(1, mass >> 4));
@@ -123,8 +132,8 @@ VOXMELT_RULE Column run_column(std::int64_t mass, std::int32_t n, std::int32_t b
   Column column{};
   column.head =
       bed + static_cast<std::int32_t>(mass >> 3) + (law.stiffness - 1) * static_cast<std::int32_t>(over >> 3);
-  column.limit = run_limit(mass, over, law);
-  const std::int64_t most = std::int64_t{column.limit} << 8;
+  column.limit = run_limit(mass, over, law, relaxation);
+  const std::int64_t most = std::int64_t{column.limit} << (8 + relaxation.bits());
   column.limited = mobility > most;
   column.mobility = static_cast<std::int32_t>(std::min(mobility, most));
   column.exposed = static_cast<std::int32_t>(std::min<std::int64_t>(mobility, 1 << 21));
@@ -173,29 +182,70 @@ VOXMELT_RULE std::int32_t flowing_amount(const Column& giver, std::int32_t a, co
   return giver.bed != kNoBed && giver.bed == taker.bed ? (a + b + 1) >> 1 : a;
 }
 
+// Tells if `giver` stands in a run, and so much higher than `taker` that it gives.
+VOXMELT_RULE bool gives(const Column& giver, const Column& taker, bool diagonal) {
+  const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
+  return giver.in_run && giver.head - taker.head > dead;
+}
+// Returns the limit of both mobilities together. Only heads of runs relax, so a taker that stands on a run
+// gets no more than one sub-step of many would give it.
+VOXMELT_RULE std::int64_t most_mobility(const Column& giver, const Column& taker, Relaxation relaxation) {
+  const int bits = relaxation.bits();
+  if (taker.in_run || !relaxation.relaxes()) return std::int64_t{giver.limit} << (9 + bits);
+  return std::max<std::int64_t>(1, (std::int64_t{giver.limit} * relaxation.scale()) >> (14 + bits))
+         << (8 + bits);
+}
+// Returns what flows at a drop of two cells, in 1/2^24 cell. Half of it flows at a drop of one.
+VOXMELT_RULE std::int64_t conductance(const Column& giver, std::int32_t a, const Column& taker,
+                                      std::int32_t b, Relaxation relaxation = {}) {
+  std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
+  if (taker.limit > 0) mobilities = std::min(mobilities, most_mobility(giver, taker, relaxation));
+  const std::int64_t flowing = flowing_amount(giver, a, taker, b);
+  return std::min<std::int64_t>((std::int64_t{1} << (24 + relaxation.bits())) - 1,
+                                (mobilities * flowing) >> 12);
+}
+// Limits what flows by what the giver has and the taker has room for: a fifth; in all 4/5 + 4/20.
+VOXMELT_RULE std::int32_t most_flow(std::int32_t a, const Column& taker, std::int32_t b, bool diagonal) {
+  const std::int32_t room = std::max(0, (taker.in_run ? kAmountMax : kOne) - b);
+  const std::int32_t most = scaled(std::min(a, room), 13107);
+  return diagonal ? most >> 2 : most;
+}
+
 // Returns the flow from `giver` (amount a) to `taker` (amount b). It is 0 unless the giver stands higher and
 // in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither,
                                        int blocked_beside = 0) {
-  if (!giver.in_run) return 0;
-  const std::int32_t dead = diagonal ? (giver.dead * 11) >> 3 : giver.dead;
-  std::int32_t drop = giver.head - taker.head;
-  if (drop <= dead) return 0;
-  drop = std::min(drop, diagonal ? 724 : kHeadOne);
-
-  std::int64_t mobilities = std::int64_t{taker.in_run ? giver.mobility : giver.exposed} + taker.mobility;
-  if (taker.limit > 0) mobilities = std::min<std::int64_t>(mobilities, std::int64_t{giver.limit} << 9);
-  const std::int64_t flowing = flowing_amount(giver, a, taker, b);
-  const std::int64_t conductance = std::min<std::int64_t>((1 << 24) - 1, (mobilities * flowing) >> 12);
+  if (!gives(giver, taker, diagonal)) return 0;
+  const std::int32_t drop = std::min(giver.head - taker.head, diagonal ? 724 : kHeadOne);
   const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
   const std::int64_t drive = (slope * drop) >> 10;  // 1/8192 cell
-  const std::int64_t product = conductance * drive, offset = dither;
+  const std::int64_t product = conductance(giver, a, taker, b) * drive, offset = dither;
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
                                                          : (product + (offset << 10)) >> 26);
-  const std::int32_t room = std::max(0, (taker.in_run ? kAmountMax : kOne) - b);
-  const std::int32_t most = scaled(std::min(a, room), 13107);  // a fifth; in all 4/5 + 4/20
-  return std::min(wanted, diagonal ? most >> 2 : most);
+  return std::min(wanted, most_flow(a, taker, b, diagonal));
+}
+
+// Returns the same flow where heads relax. If both are in a run, `fall` counts: by how much the giver's
+// relaxed head is above the taker's, in 1/32768 cell. It may be below 0. Then the liquid flows back, and so
+// does the result.
+VOXMELT_RULE std::int32_t relaxed_flow(const Column& giver, std::int32_t a, const Column& taker,
+                                       std::int32_t b, bool diagonal, std::int32_t dither, int blocked_beside,
+                                       std::int32_t fall, Relaxation relaxation) {
+  if (!gives(giver, taker, diagonal)) return 0;
+  const std::int32_t most = (diagonal ? 724 : kHeadOne) * (kRelaxedOne / kHeadOne);
+  const std::int32_t own = std::min(giver.head - taker.head, 1024) * (kRelaxedOne / kHeadOne);
+  const bool back = taker.in_run && fall < 0;
+  const std::int64_t drop = std::min(taker.in_run ? (back ? -fall : fall) : own, most);
+  const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
+  const std::int64_t drive = (2 * slope * drop) >> 16;  // 1/16384 cell
+  const int bits = relaxation.bits();
+  const std::int64_t product = (conductance(giver, a, taker, b, relaxation) * drive) >> (8 + bits);
+  const std::int64_t offset = (std::int64_t{dither} << (diagonal ? 5 : 3)) >> bits;
+  const std::int64_t wanted = (product + offset) >> ((diagonal ? 21 : 19) - bits);
+  if (back)
+    return -static_cast<std::int32_t>(std::min<std::int64_t>(wanted, most_flow(b, giver, a, diagonal)));
+  return static_cast<std::int32_t>(std::min<std::int64_t>(wanted, most_flow(a, taker, b, diagonal)));
 }
 
 }  // namespace voxmelt::rule

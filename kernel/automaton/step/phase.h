@@ -42,13 +42,20 @@ inline std::vector<Phase> phase_order(rule::Law law, int substeps = 1) {
   return phases;
 }
 
+// A step of the viscous law has so many sub-steps, and in each of them heads relax by so many stages.
+struct Cadence {
+  int substeps = 1, stages = 1;
+};
+
 // Tells when a phase runs: in which step, and in which of its sub-steps (`excess` and `spread`, viscous law).
 struct Moment {
   std::uint32_t step = 0;
   int substep = 0, substeps = 1;
+  int stages = 1;       // by which heads relax in each sub-step
   bool unseen = false;  // the next phase follows at once, and may do the work of this one
   explicit Moment(std::uint32_t number) : step(number) {}
-  Moment(std::uint32_t number, int the_number, int all) : step(number), substep(the_number), substeps(all) {}
+  Moment(std::uint32_t number, int the_number, Cadence cadence)
+      : step(number), substep(the_number), substeps(cadence.substeps), stages(cadence.stages) {}
 };
 
 }  // namespace voxmelt::step

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/automaton/rule/relax.h"
 #include "kernel/engine/simd/source.h"
 
 namespace voxmelt::parallel {
@@ -56,7 +57,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
   if (parameters.flow.law == rule::Law::paper)
     paper_.emplace(parameters, view, chunks);
   else
-    viscous_.emplace(grid, view, chunks);
+    viscous_.emplace(parameters.flow.viscous, grid, view, chunks);
   dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ = moved_ =
       Tiles(view.nz, view.tile_rows());
   moved_.fill(all_words(view));
@@ -99,6 +100,11 @@ simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::
   if (parameters.flow.law == rule::Law::paper) return step;
   const auto k = static_cast<std::uint32_t>(moment.substep), n = static_cast<std::uint32_t>(moment.substeps);
   step.substeps = n;
+  const rule::Relaxation relaxation{moment.stages};
+  step.stages = relaxation.stages;
+  step.relaxed_reach = relaxation.reach();
+  step.relaxed_bits = relaxation.bits();
+  step.relaxed_scale = relaxation.scale();
   for (std::uint32_t axis = 0; axis < 4; ++axis) {
     step.pair_dither[axis] = (dither + 16384 * axis) & 0xFFFF;
     step.turn[axis] = 65536 * ((k + axis * n / 4) % n);

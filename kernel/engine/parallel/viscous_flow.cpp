@@ -6,9 +6,9 @@
 
 namespace voxmelt::parallel {
 
-ViscousFlow::ViscousFlow(state::Grid grid, const simd::View& view, int chunks)
+ViscousFlow::ViscousFlow(const rule::ViscousLaw& law, state::Grid grid, const simd::View& view, int chunks)
     : chunks_(view.nz, chunks),
-      memory_(grid),
+      memory_(grid, law.relaxes()),
       for_settle_(view.nz, view.tile_rows()),
       for_exchange_(for_settle_),
       for_fall_(for_settle_),
@@ -27,6 +27,7 @@ ViscousFlow::ViscousFlow(state::Grid grid, const simd::View& view, int chunks)
   for (Worker& worker : chunk_) {
     prepare(worker, 2);
     worker.scratch = state::Pages(simd::settle_scratch_bytes(view.ny));
+    if (law.relaxes()) worker.layer = LayerMemory(view);
   }
   for (Worker& worker : cut_) prepare(worker, 1);
 }
@@ -57,9 +58,11 @@ void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool besi
 }
 
 void ViscousFlow::settle(const Job& job, simd::Books& books) {
-  // Every mobility is for one of so many sub-steps. If their number changes, all runs are settled again.
-  if (job.step.substeps != substeps_) for_settle_.fill(all_words(job.view));
+  // Every mobility is for one of so many sub-steps and stages. If their number changes, all runs are settled
+  // again.
+  if (job.step.substeps != substeps_ || job.step.stages != stages_) for_settle_.fill(all_words(job.view));
   substeps_ = job.step.substeps;
+  stages_ = job.step.stages;
   job.workers.run(chunks_.count(), settle_turns_, [&](int chunk) {
     Worker& worker = chunk_[chunk];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {
@@ -76,21 +79,32 @@ void ViscousFlow::settle(const Job& job, simd::Books& books) {
   books.limit = limit_;
 }
 
+// Layers relax by themselves. Each worker takes every so many of them, since neighbours cost alike.
+void ViscousFlow::relax(const Job& job) {
+  const int workers = chunks_.count();
+  job.workers.run(workers, relax_turns_, [&](int first) {
+    for (int y = first; y < job.view.ny; y += workers)
+      job.kernels.relax(job.view, job.step, y, memory_.runs(), chunk_[first].layer.memory());
+  });
+}
+
 void ViscousFlow::exchange(const Job& job, int z, Worker& worker, SliceCurrents& to) {
   if (job.sleep && !to.written() && !taken_.any_near(z) && !restless_.any(z)) return;
   find_work(job, &taken_, z, true, worker);
   for (std::size_t r = 0; r < worker.work.size(); ++r) worker.work[r] |= restless_.slice(z)[r];
   restless_.clear(z);
   const bool awake = any(worker.work);
+  const auto exchange_pairs = job.step.stages > 1 ? job.kernels.exchange_relaxed : job.kernels.exchange_pairs;
   if (awake || to.written())
-    job.kernels.exchange_pairs(job.view, job.step, z, worker.work.data(), memory_.runs(), restless_.edit(z),
-                               to.currents());
+    exchange_pairs(job.view, job.step, z, worker.work.data(), memory_.runs(), restless_.edit(z),
+                   to.currents());
   restless_.tidy(z);
   to.set_written(awake);
 }
 
 void ViscousFlow::spread(const Job& job, simd::Books& books) {
   std::swap(taken_, for_exchange_);
+  if (job.step.stages > 1) relax(job);
   // The slice before a cut exchanges with the one after it before either is changed.
   job.workers.run(chunks_.cuts(), cut_turns_, [&](int i) {
     Worker& worker = cut_[i];

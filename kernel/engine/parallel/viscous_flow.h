@@ -13,12 +13,13 @@
 #include "kernel/engine/parallel/chunks.h"
 #include "kernel/engine/parallel/currents.h"
 #include "kernel/engine/parallel/job.h"
+#include "kernel/engine/parallel/layer_memory.h"
 
 namespace voxmelt::parallel {
 
 class ViscousFlow {
  public:
-  ViscousFlow(state::Grid grid, const simd::View& view, int chunks);
+  ViscousFlow(const rule::ViscousLaw& law, state::Grid grid, const simd::View& view, int chunks);
 
   void note(const Tiles& changed);  // changes of phases that are not here
   void settle(const Job& job, simd::Books& books);
@@ -32,23 +33,26 @@ class ViscousFlow {
   struct Worker {
     std::vector<SliceCurrents> ring;  // in a chunk: two; at a cut: one, for the slice before it
     state::Pages scratch;
+    LayerMemory layer;  // in which it relaxes layers
     std::vector<TileRow> work, changed;
     simd::Books books;
   };
 
   void find_work(const Job& job, const Tiles* noted, int z, bool beside, Worker& worker);
+  void relax(const Job& job);
   void exchange(const Job& job, int z, Worker& worker, SliceCurrents& to);
   void spread_chunk(const Job& job, int chunk);
   void note(int z, const TileRow* changed);
   void close(simd::Books& books);
 
   Chunks chunks_;
-  cpu::Turns settle_turns_, cut_turns_, chunk_turns_, fall_turns_;
+  cpu::Turns settle_turns_, relax_turns_, cut_turns_, chunk_turns_, fall_turns_;
   RunMemory memory_;
   Tiles for_settle_, for_exchange_, for_fall_, taken_, restless_, changed_, changed_before_;
   std::vector<Worker> chunk_, cut_;
   SliceCurrents none_;                      // currents of the slice before the first: empty
   std::uint32_t substeps_ = 0;              // number of sub-steps at the last settle
+  int stages_ = 1;                          // number of stages then
   state::LimitCounts<std::int64_t> limit_;  // counts over all columns, at the last settle
 };
 

@@ -106,4 +106,11 @@ inline bool is_open(const Cells& cells, int x, int y, int z, rule::Direction d) 
   return d.dx == 0 || d.dz == 0 || !(cells.blocked(x + d.dx, y, z) && cells.blocked(x, y, z + d.dz));
 }
 
+// Counts the blocked cells beside an axis pair: those of both cells that lie across the other axis.
+inline int blocked_beside(const Cells& cells, int x, int y, int z, rule::Direction to) {
+  const auto blocked = [&](int dx, int dz) { return static_cast<int>(cells.blocked(x + dx, y, z + dz)); };
+  return blocked(to.dz, to.dx) + blocked(-to.dz, -to.dx) + blocked(to.dx + to.dz, to.dz + to.dx) +
+         blocked(to.dx - to.dz, to.dz - to.dx);
+}
+
 }  // namespace voxmelt::scalar

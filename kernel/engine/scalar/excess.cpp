@@ -98,8 +98,8 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
     const auto mean = static_cast<std::int32_t>(run.content / run.mass);
     const rule::Column column =
         rule::run_column(run.mass, run.n, rule::bed_head(bottom, cells.bed(x, bottom - 1, z, solid_bed_)),
-                         mean, parameters_.flow, moment.substeps);
-    std::int64_t held = 0;  // cells of the run that hold something
+                         mean, parameters_.flow, moment.substeps, {moment.stages});
+    const std::int32_t held = rule::settled_cells(run.mass, run.n);
     for (std::int32_t k = 0; k < run.n; ++k) {
       const state::Slot i = run.at(k);
       const std::int32_t amount = rule::settled(run.mass, run.n, k);
@@ -114,7 +114,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
       dead_[i] = column.dead;
       bed_[i] = column.bed;
       limit_[i] = column.limit;
-      ++held;
+      filled_[i] = held;
     }
     ledger.limit.add(state::LimitCounts<std::int64_t>{held, column.limited ? held : 0, run.mass,
                                                       column.limited ? run.mass : 0});

@@ -17,6 +17,7 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     dead_ = decltype(dead_)(grid);
     bed_ = decltype(bed_)(grid);
     limit_ = decltype(limit_)(grid);
+    filled_ = relaxed_ = decltype(filled_)(grid);
   }
 }
 

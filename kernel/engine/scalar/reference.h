@@ -26,7 +26,7 @@ class Reference final : public step::HostStepper {
   // Returns what the run of a cell shows, or nothing outside runs. It is for the viscous law, after `excess`.
   std::optional<rule::Column> run_of(state::Slot i) const {
     if (in_run_[i] == 0) return {};
-    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
+    return column_of(i);
   }
 
  private:
@@ -39,7 +39,11 @@ class Reference final : public step::HostStepper {
   void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
   void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
   void settle(step::Moment moment, Volume& volume, Ledger& ledger);
+  void relax(rule::Relaxation relaxation, const Volume& volume);
   void viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger);
+  rule::Column column_of(state::Slot i) const {  // of a cell in a run
+    return {head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
+  }
 
   void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
 
@@ -50,7 +54,8 @@ class Reference final : public step::HostStepper {
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,
-      limit_;    // viscous law: see rule::Column
+      limit_;                                     // viscous law: see rule::Column
+  state::Field<std::int32_t> filled_, relaxed_;  // viscous law: cells of the run; relaxed heads
   Volume next_;  // the result of a phase while it is computed
 };
 

@@ -56,13 +56,15 @@ class Runs {
 
 }  // namespace
 
-int count_substeps(const rule::Parameters& parameters, const state::Volume& volume) {
+step::Cadence count_substeps(const rule::Parameters& parameters, const state::Volume& volume) {
   const rule::ViscousLaw& law = parameters.flow.viscous;
-  if (!law.counts_substeps()) return law.substeps;
+  if (!law.counts_substeps() && !law.relaxes()) return {law.substeps};
   const Runs runs(parameters, volume);
   std::int64_t most = 1;
   runs.for_each_begin([&](int x, int y, int z) { most = std::max(most, runs.need(x, y, z)); });
-  return static_cast<int>(std::min<std::int64_t>(most, law.substeps_max));
+  const std::int64_t substeps =
+      law.counts_substeps() ? std::min<std::int64_t>(most, law.substeps_max) : law.substeps;
+  return {static_cast<int>(substeps), rule::stages_for((most + substeps - 1) / substeps, law.stages_max)};
 }
 
 }  // namespace voxmelt::scalar

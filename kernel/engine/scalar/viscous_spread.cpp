@@ -1,4 +1,5 @@
 // Phase `spread` of the viscous law lets liquid flow down the difference of free-surface heads.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -14,13 +15,6 @@ namespace {
 // Each axis has its own part of the dither: x, z, and the two diagonals.
 constexpr std::array<int, 8> kDitherAxis{0, 0, 1, 1, 2, 3, 3, 2};
 
-// Counts the blocked cells beside an axis pair: those of both cells that lie across the other axis.
-int blocked_beside(const Cells& cells, int x, int y, int z, rule::Direction to) {
-  const auto blocked = [&](int dx, int dz) { return static_cast<int>(cells.blocked(x + dx, y, z + dz)); };
-  return blocked(to.dz, to.dx) + blocked(-to.dz, -to.dx) + blocked(to.dx + to.dz, to.dz + to.dx) +
-         blocked(to.dx - to.dz, to.dz - to.dx);
-}
-
 }  // namespace
 
 void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
@@ -29,17 +23,17 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
   const bool hot = parameters_.heat.enabled;
   const std::int32_t mixing = rule::mixing_dither(moment.step, moment.substep);
 
+  const rule::Relaxation relaxation{moment.stages};
+  if (relaxation.relaxes()) relax(relaxation, volume);
+
   // Returns what a cell shows to its neighbours.
-  const auto run_column = [&](state::Slot i) {
-    return rule::Column{head_[i], mobility_[i], exposed_[i], dead_[i], in_run_[i] != 0, bed_[i], limit_[i]};
-  };
   const auto column = [&](int x, int y, int z) {
     const state::Slot i = cells.at(x, y, z);
-    if (in_run_[i]) return run_column(i);
+    if (in_run_[i]) return column_of(i);
     if (cells.blocked(x, y - 1, z))
       return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_bed_)));
     const state::Slot below = cells.at(x, y - 1, z);
-    if (in_run_[below]) return rule::top_column(run_column(below));
+    if (in_run_[below]) return rule::top_column(column_of(below));
     return rule::air_column(y);
   };
 
@@ -62,9 +56,17 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       const std::int32_t offset =
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
-      out += rule::viscous_flow(own, volume.amount[i], there, volume.amount[j], diagonal, offset, walls);
-      const std::int32_t taken =
-          rule::viscous_flow(there, volume.amount[j], own, volume.amount[i], diagonal, offset, walls);
+      const auto flow = [&](const rule::Column& from, state::Slot a, const rule::Column& to_there,
+                            state::Slot b) {
+        return relaxation.relaxes()
+                   ? rule::relaxed_flow(from, volume.amount[a], to_there, volume.amount[b], diagonal, offset,
+                                        walls, relaxed_[a] - relaxed_[b], relaxation)
+                   : rule::viscous_flow(from, volume.amount[a], to_there, volume.amount[b], diagonal, offset,
+                                        walls);
+      };
+      const std::int32_t given = flow(own, i, there, j) - flow(there, j, own, i);  // one of them is 0
+      const std::int32_t taken = std::max(0, -given);
+      out += std::max(0, given);
       in += taken;
       content += content_of(taken, volume.heat[j]);
     }

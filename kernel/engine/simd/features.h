@@ -25,7 +25,8 @@ struct HeatFeatures {
 
 struct ViscousFeatures {
   bool hot;
-  bool guided;  // walls hold, or drops hang
+  bool guided;           // walls hold, or drops hang
+  bool relaxed = false;  // heads relax; used by `exchange_pairs`
 };
 
 // Tells what this build can do. It is everything, unless the CMake option VOXMELT_WITHOUT leaves features out

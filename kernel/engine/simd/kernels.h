@@ -68,6 +68,10 @@ struct Step {
   std::uint32_t pair_dither[4] = {};          // viscous law: D(s, axis, 4)
   std::uint32_t turn[4] = {};                 // turn of the axes in this sub-step, times 65536
   std::uint32_t substeps = 1;                 // number of sub-steps of the step
+  int stages = 1;                             // in which heads relax in a sub-step
+  // They do the work of `relaxed_reach` sub-steps, which is 2^relaxed_bits at most, and relaxed_scale / 32768
+  // times as much at least.
+  int relaxed_reach = 1, relaxed_bits = 0, relaxed_scale = 32768;
 };
 
 // Holds the terms of the ledgers, summed over what a kernel did. For conducted and convected, only the sum
@@ -125,9 +129,12 @@ struct Runs {
   std::uint16_t* dead = nullptr;      // cut at 65535; outside runs, on a bed or on a run, it is 65535
   std::uint16_t* bed = nullptr;       // 1 + the bed above the grid's bottom, 1/16 cell
   std::uint16_t *deep_low = nullptr, *deep_high = nullptr;  // all 32 bits of a head that is cut
-  std::uint64_t *in_run = nullptr, *shown = nullptr;        // shown: cells that are not all zero
-  TileRow* deep = nullptr;                                  // [z][y]: words in which a head is cut
-  state::LimitCounts<std::int64_t>* limits = nullptr;       // [z][word]: counts of its columns
+  // These are null in scenes whose heads never relax: the cells of the run, and the relaxed head in 1/32768
+  // cell, written by `relax` alone.
+  std::uint16_t *filled = nullptr, *relaxed_low = nullptr, *relaxed_high = nullptr;
+  std::uint64_t *in_run = nullptr, *shown = nullptr;   // shown: cells that are not all zero
+  TileRow* deep = nullptr;                             // [z][y]: words in which a head is cut
+  state::LimitCounts<std::int64_t>* limits = nullptr;  // [z][word]: counts of its columns
 };
 
 // Holds what the pairs of one slice exchange in the viscous law's spread. Each pair is booked at its first
@@ -137,6 +144,19 @@ struct Currents {
   std::uint16_t* flow[4] = {};  // [y][row], signed: to (+x), (+z), (+x+z), (-x+z)
   std::uint16_t* heat[2] = {};  // [y][row], only with heat: heats of this slice and the next, xor 0x8000
   TileRow* giving = nullptr;    // [y]: words with a flow that is not 0
+};
+
+// Is the memory in which a layer relaxes. Layers lie as [1 + z][row], with a slice more before and after, and
+// 64 cells more on both ends. Lists have a vector for each item. All is zero at first.
+struct RelaxMemory {
+  struct Item {
+    std::ptrdiff_t place, cell;  // of the first of a vector of cells: in a layer, in the grid
+  };
+  std::uint16_t* leveling[4] = {};            // layers: what the pairs of a cell level; zero again at the end
+  std::uint16_t *low[2] = {}, *high[2] = {};  // layers: heads after the last stage and the one before
+  Item* items = nullptr;                      // list
+  std::uint16_t *head = nullptr, *head_high = nullptr;  // lists
+  std::int32_t *impetus = nullptr, *change = nullptr;   // lists
 };
 
 // `settle` needs one block of memory per thread, aligned to 64 bytes. Its contents do not matter between
@@ -213,6 +233,11 @@ struct Kernels {
   // something at some step if nothing changes.
   void (*exchange_pairs)(const View&, const Step&, int z, const TileRow* tiles, const Runs&,
                          TileRow* restless, Currents&) = nullptr;
+  // Lets the heads of layer y relax, all slices (viscous law, before `exchange_relaxed`).
+  void (*relax)(const View&, const Step&, int y, const Runs&, const RelaxMemory&) = nullptr;
+  // Does what exchange_pairs does, in a step of several stages.
+  void (*exchange_relaxed)(const View&, const Step&, int z, const TileRow* tiles, const Runs&,
+                           TileRow* restless, Currents&) = nullptr;
   // Applies the exchange to slice z (viscous law, phase `spread`, second half). below and own are the
   // currents of slices z - 1 and z.
   void (*carry)(const View&, const Step&, int z, const Currents& below, const Currents& own, TileRow* changed,

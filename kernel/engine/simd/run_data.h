@@ -31,9 +31,9 @@ struct alignas(64) SettledRuns {
   std::uint16_t at[64], above[64];
   std::uint16_t head_low[64], head_high[64];  // 1024 + head above the grid's bottom
   std::uint16_t mobility[64], dead[64];
-  std::uint16_t heat[64];                            // heat of runs that do not keep their order
-  std::uint16_t fine[64], limit[64], shown_bed[64];  // as in Runs
-  std::uint64_t ordered;                             // after the arrays, so that vectors may be aligned
+  std::uint16_t heat[64];                                        // heat of runs that do not keep their order
+  std::uint16_t fine[64], limit[64], shown_bed[64], filled[64];  // as in Runs
+  std::uint64_t ordered;  // after the arrays, so that vectors may be aligned
 };
 static_assert(offsetof(SettledRuns, ordered) % 64 == 0);
 
@@ -45,7 +45,9 @@ class RunData {
   [[gnu::always_inline]] RunData(const Step& step)
       : flow_(step.parameters->flow),
         pace_((step.parameters->flow.viscous.mobility + step.substeps / 2) / step.substeps),
-        dither_(step.dither) {}
+        dither_(step.dither),
+        reach_(step.relaxed_reach),
+        bits_(step.relaxed_bits) {}
 
   using Limits = state::LimitCounts<std::int64_t>;
 
@@ -95,6 +97,7 @@ class RunData {
     keep(now.fine, settled.fine);
     keep(now.limit, settled.limit);
     keep(now.shown_bed, settled.shown_bed);
+    keep(now.filled, settled.filled);
     if constexpr (kHot) keep(now.heat, settled.heat);
     return rounded;
   }
@@ -179,14 +182,15 @@ class RunData {
       // The quotients are of whole numbers below 2^14. A float has the right whole part for them.
       const int whole = static_cast<int>(13107.f / static_cast<float>((mass[i] >> 12) + 1));
       const int stiff = static_cast<int>(static_cast<float>(whole) / static_cast<float>(stiffness));
-      const int limit = over[i] > 0 ? stiff : whole, most = limit < 1 ? 1 : limit;
-      const int shown = mobility[i] < (1 << 22) - 1 ? mobility[i] : (1 << 22) - 1;
+      const int limit = (over[i] > 0 ? stiff : whole) * reach_ >> bits_, most = limit < 1 ? 1 : limit;
+      const int range = (1 << (22 + bits_)) - 1, shown = mobility[i] < range ? mobility[i] : range;
       now.limit[i] = static_cast<std::uint16_t>(most);
-      now.mobility[i] = static_cast<std::uint16_t>(shown >> 8);
-      now.fine[i] = static_cast<std::uint16_t>((shown & 0xFF) << 8);
+      now.mobility[i] = static_cast<std::uint16_t>(shown >> (8 + bits_));
+      now.fine[i] = static_cast<std::uint16_t>(shown << (8 - bits_) & 0xFFFF);
 
-      const int one = counts[i], limited = mobility[i] > 256 * most ? one : 0;
+      const int one = counts[i], limited = mobility[i] > most << (8 + bits_) ? one : 0;
       const int held = over[i] > 0 ? runs.last[i] - runs.first[i] + 1 : ((mass[i] - 1) >> 12) + 1;
+      now.filled[i] = static_cast<std::uint16_t>(held);
       cells += one * held;
       limited_cells += limited * held;
       low += one * (mass[i] & 0xFFFF);
@@ -198,7 +202,7 @@ class RunData {
                       (std::int64_t{limited_high} << 16) + limited_low});
   }
 
-  // Computes mobilities, cut at 2^28, far above every limit. (p q + 2^23) >> 24 has up to 40 bits. So p is
+  // Computes mobilities, cut at 2^30, above every limit. (p q + 2^23) >> 24 has up to 40 bits. So p is
   // parted in two of 18 bits, and all numbers are whole and exact in double.
   template <bool kThermal>
   [[gnu::always_inline]] void move(int begin, const Lanes32& mass, const Lanes16& mean,
@@ -213,7 +217,7 @@ class RunData {
       const int carried = static_cast<int>((low * square + 8388608.0) * (1.0 / 262144));
       double free = (high * square + carried) * (1.0 / 64);
       if constexpr (kThermal) free = std::floor(free) * power[i];
-      mobility[i] = static_cast<int>(free < 268435456.0 ? free : 268435456.0);
+      mobility[i] = static_cast<int>(free < 1073741824.0 ? free : 1073741824.0);
     }
   }
 
@@ -236,6 +240,7 @@ class RunData {
   const rule::Flow& flow_;
   const std::uint64_t pace_;  // mobility parameter of a sub-step
   const std::uint32_t dither_;
+  const int reach_, bits_;  // of a relaxation
 };
 
 }  // namespace voxmelt::simd

@@ -299,6 +299,10 @@ class Settle {
     const V limit = L::select(in_run, L::load(settled.limit + lane), old_limit);
     V difference = (old ^ amount) | (old_head ^ new_head) | (old_mobility ^ mobility) | (old_dead ^ dead) |
                    (old_bed ^ bed) | (old_fine ^ fine) | (old_limit ^ limit);
+    if (r_.filled != nullptr) {
+      const V old_filled = L::load(r_.filled + at);
+      L::store(r_.filled + at, L::select(in_run, L::load(settled.filled + lane), old_filled));
+    }
     if constexpr (kFeatures.hot) {
       // If no amount changes and nothing comes from above, no heat changes in runs that keep their order.
       const std::uint64_t ordered = taken & settled.ordered, mixed = taken & ~settled.ordered;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/engine/simd/fall.h"
+#include "kernel/engine/simd/relax.h"
 #include "kernel/engine/simd/settle.h"
 #include "kernel/engine/simd/viscous_carry.h"
 #include "kernel/engine/simd/viscous_spread.h"
@@ -22,6 +23,11 @@ void exchange_pairs_slice(const View& view, const Step& step, int z, const TileR
     restless[y >> view.tile_shift] |= exchange.row(y, tiles[y >> view.tile_shift]);
 }
 
+template <class Arch>
+void relax_layer(const View& view, const Step& step, int y, const Runs& runs, const RelaxMemory& memory) {
+  RelaxLayer<Arch>(view, step, y, runs, memory).run();
+}
+
 template <class Arch, ViscousFeatures kFeatures>
 void carry_slice(const View& view, const Step& step, int z, const Currents& below, const Currents& own,
                  TileRow* changed, Books& books) {
@@ -39,9 +45,10 @@ template <class Arch>
 void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   const bool guided = kBuilt.guided && !parameters.flow.fall.is_free();
   const auto choose = [&]<bool kHot>() {
-    constexpr ViscousFeatures plain{kHot, false}, all{kHot, true};
+    constexpr ViscousFeatures plain{kHot, false}, all{kHot, true}, relaxed{kHot, false, true};
     kernels.settle = settle_slice<Arch, plain>;
     kernels.exchange_pairs = exchange_pairs_slice<Arch, plain>;
+    kernels.exchange_relaxed = exchange_pairs_slice<Arch, relaxed>;
     kernels.carry = carry_slice<Arch, plain>;
     kernels.fall = guided ? fall_slice<Arch, all> : fall_slice<Arch, plain>;
   };
@@ -49,6 +56,7 @@ void choose_viscous_kernels(const rule::Parameters& parameters, Kernels& kernels
     choose.template operator()<true>();
   else
     choose.template operator()<false>();
+  kernels.relax = relax_layer<Arch>;
 }
 
 }  // namespace voxmelt::simd

@@ -10,37 +10,22 @@
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"
+#include "kernel/engine/simd/viscous_pairs.h"
 
 namespace voxmelt::simd {
 
-// Less flows on a slope. The factors go by 16 times the difference of two beds in cells, and 1 is 16384.
-struct SlopeFactors {
-  alignas(64) std::uint16_t axis[32] = {16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923,
-                                        10034, 9198,  8422,  7710,  7061,  6473,  5941,  5461};
-  alignas(64) std::uint16_t diagonal[32] = {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511,
-                                            8165,  6880,  5696,  4641,  3730,  2962,  2331,  1820};
-};
-inline constexpr SlopeFactors kSlope;
-
 template <class Arch, ViscousFeatures kFeatures>
-class ExchangePairs {
-  using L = cpu::Lanes<Arch>;
-  using V = typename L::V;
-  using M = typename L::M;
-  using Wide = typename L::Wide;
+class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
+  using Base = ViscousPairs<Arch, kFeatures.relaxed>;
+  using Base::r_, Base::step_, Base::to_other_, Base::v_, Base::z_;
+  using typename Base::Cell, typename Base::Masks, typename Base::Pair;
+  using typename Base::L, typename Base::M, typename Base::V, typename Base::Wide;
 
  public:
   [[gnu::always_inline]] ExchangePairs(const View& view, const Step& step, int z, const Runs& runs,
                                        Currents& currents)
-      : v_(view),
-        r_(runs),
-        step_(step),
-        z_(z),
-        c_(currents),
-        slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {
-    const auto front = z + 1 < view.nz ? static_cast<std::ptrdiff_t>(view.slice) : 0;  // 0: masked
-    const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
-    for (int axis = 0; axis < 4; ++axis) to_other_[axis] = steps[axis];
+      : Base(view, step, runs), c_(currents) {
+    this->go_to_slice(z);
   }
 
   // Computes row y. It returns the restless words.
@@ -48,13 +33,12 @@ class ExchangePairs {
     if ((work | c_.giving[y]) == 0) return 0;
     TileRow restless = 0, giving = 0;
     if (v_.words < 64) work &= (TileRow{1} << v_.words) - 1;
-    TileRow deep = deep_words(y, z_) | deep_words(y, z_ + 1);
-    deep |= deep << 1 | deep >> 1;
+    const TileRow deep = this->deep_words(y);
     for (; work != 0; work &= work - 1) {
       const int w = __builtin_ctzll(work);
       const TileRow bit = work & -work;
       Masks masks;
-      if (!find_pairs(w, y, masks)) continue;
+      if (!this->find_pairs(w, y, masks)) continue;
       if (dithered_ != y) set_dither(y);
       bool flows = false, may_flow = false;
       const bool gave = (c_.giving[y] & bit) != 0;
@@ -85,71 +69,20 @@ class ExchangePairs {
     own = (own & 0x00FF) << 8 | (own >> 8 & 0x00FF);
     for (int axis = 0; axis < 4; ++axis) {
       const std::uint32_t layer = (step_.pair_dither[axis] + own) & 0xFFFF;
-      const std::uint32_t offset = (layer + step_.turn[axis]) / step_.substeps << (axis < 2 ? 2 : 4);
+      const std::uint32_t turned = (layer + step_.turn[axis]) / step_.substeps;
+      const std::uint32_t offset = kFeatures.relaxed ? turned << (axis < 2 ? 3 : 5) >> step_.relaxed_bits
+                                                     : turned << (axis < 2 ? 2 : 4);
       whole_[axis] = offset >> 16;
-      rest_[axis] = 0xFFFF - (offset & 0xFFFF);
+      rest_[axis] = kFeatures.relaxed ? offset & 0xFFFF : 0xFFFF - (offset & 0xFFFF);
     }
   }
-
-  struct Masks {
-    std::uint64_t in_run, there[4];  // this cell, the other one of a pair
-    std::uint64_t pair[4], any;      // open, and one of them is in a run
-    std::uint64_t beside[2][4];      // blocked cells beside the axis pairs
-    bool walls;                      // any of them beside a pair
-  };
-
-  [[gnu::always_inline]] TileRow deep_words(int y, int z) const {
-    return z < v_.nz ? r_.deep[z * v_.ny + y] : 0;
-  }
-  [[gnu::always_inline]] std::uint64_t in_run(int w, int y, int z) const {
-    return w < 0 || w >= v_.words || z >= v_.nz ? 0 : r_.in_run[v_.word(w, y, z)];
-  }
-
-  [[gnu::always_inline]] bool find_pairs(int w, int y, Masks& m) const {
-    const std::uint64_t front_run = in_run(w, y, z_ + 1);
-    m.in_run = in_run(w, y, z_);
-    m.there[0] = cpu::from_right(m.in_run, in_run(w + 1, y, z_));
-    m.there[1] = front_run;
-    m.there[2] = cpu::from_right(front_run, in_run(w + 1, y, z_ + 1));
-    m.there[3] = cpu::from_left(front_run, in_run(w - 1, y, z_ + 1));
-    if ((m.in_run | m.there[0] | m.there[1] | m.there[2] | m.there[3]) == 0) return false;
-
-    const std::uint64_t own = v_.blocked(w, y, z_), front = v_.blocked(w, y, z_ + 1);
-    const std::uint64_t right = cpu::from_right(own, v_.blocked(w + 1, y, z_));
-    const std::uint64_t left = cpu::from_left(own, v_.blocked(w - 1, y, z_));
-    const std::uint64_t front_right = cpu::from_right(front, v_.blocked(w + 1, y, z_ + 1));
-    const std::uint64_t front_left = cpu::from_left(front, v_.blocked(w - 1, y, z_ + 1));
-    m.pair[0] = ~(own | right);
-    m.pair[1] = ~(own | front);
-    m.pair[2] = ~(own | front_right | (right & front));
-    m.pair[3] = ~(own | front_left | (left & front));
-    m.any = 0;
-    for (int axis = 0; axis < 4; ++axis) m.any |= m.pair[axis] &= m.in_run | m.there[axis];
-    if (m.any == 0) return false;
-
-    // The axis pairs carry the share of diagonals to blocked cells.
-    const std::uint64_t back = v_.blocked(w, y, z_ - 1);
-    const std::uint64_t back_right = cpu::from_right(back, v_.blocked(w + 1, y, z_ - 1));
-    const std::uint64_t beside[2][4] = {{front, front_right, back, back_right},
-                                        {left, right, front_left, front_right}};
-    m.walls = false;
-    for (int axis = 0; axis < 2; ++axis)
-      for (int i = 0; i < 4; ++i) m.walls |= (m.beside[axis][i] = beside[axis][i] & m.pair[axis]) != 0;
-    return true;
-  }
-
-  struct Cell {
-    V head, amount, dead, mobility, fine, limit, bed;
-  };
 
   [[gnu::always_inline]] void vectors(int w, int y, int part, const Masks& m, bool deep, bool gave,
                                       bool& flows, bool& may_flow) {
     const auto lane = static_cast<std::ptrdiff_t>(64 * w + part * L::kCount);
     const auto at = v_.cell(0, y, z_) + lane;
     const std::ptrdiff_t to = y * static_cast<std::ptrdiff_t>(v_.row) + lane;
-    const Cell own{L::load(r_.head + at),     L::load(v_.amount + at), L::load(r_.dead + at),
-                   L::load(r_.mobility + at), L::load(r_.fine + at),   L::load(r_.limit + at),
-                   L::load(r_.bed + at)};
+    const Cell own = this->load(at);
     V flow[4], all = L::zero();
     for (int axis = 0; axis < 4; ++axis) {
       flow[axis] = axis < 2 ? pair<false>(own, at, axis, part, m, deep, may_flow)
@@ -165,111 +98,82 @@ class ExchangePairs {
   template <bool kDiagonal>
   [[gnu::always_inline]] V pair(const Cell& own, std::ptrdiff_t at, int axis, int part, const Masks& m,
                                 bool deep, bool& may_flow) const {
-    const std::ptrdiff_t there = at + to_other_[axis];
-    const V head = L::load_any(r_.head + there);
-    V down = L::sub_saturated(own.head, head), up = L::sub_saturated(head, own.head);
-    if (deep) {
-      const Wide a = plumbed(own.head, at), b = plumbed(head, there);
-      down = L::narrow({a.low - b.low, a.high - b.high});
-      up = L::narrow({b.low - a.low, b.high - a.high});
-    }
-    const V drop = down | up;
-    const M gives = L::less(L::zero(), down);
-    // A cell outside a run has a dead zone that no drop exceeds, or (air) nothing below it.
-    V dead = L::select(gives, own.dead, L::load_any(r_.dead + there));
-    if constexpr (kDiagonal) dead = L::add_saturated(dead, L::high(dead, L::set(3 << 13)));
-    const std::uint64_t moves = L::to_bits(L::less(dead, drop)) & (m.pair[axis] >> (part * L::kCount));
-    if (moves == 0) return L::zero();
-
-    const M here_runs = L::from_bits(m.in_run, part), there_runs = L::from_bits(m.there[axis], part);
-    const V amount = L::load_any(v_.amount + there);
-    const V giver = L::select(gives, own.amount, amount), taker = L::select(gives, amount, own.amount);
-    const Mobility both = mobilities(own, there, gives, here_runs, there_runs);
-    // Between level beds the mean flows. (A giver shows a bed.)
-    const V bed = L::load_any(r_.bed + there);
-    const V flowing = L::select(L::equal(own.bed, bed), L::mean(own.amount, amount), giver);
-    const Conductance c = conductance(both, flowing);
+    Pair p;
+    if (!this->template look<kDiagonal>(own, at, axis, part, m, m.pair[axis], deep, p)) return L::zero();
     const M runs = L::from_bits(m.in_run & m.there[axis], part);
-    const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), taker);
-    V most = L::high(L::min(giver, room), L::set(13107));
+    V drop;
+    if constexpr (kFeatures.relaxed) drop = this->template relaxed_drop<kDiagonal>(p, at, axis, runs);
+    const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), p.taker);
+    V most = L::high(L::min(p.giver, room), L::set(13107));
     if constexpr (kDiagonal) most = L::template shift_right<2>(most);
-    const M gate = L::from_bits(moves << (part * L::kCount), part);
+    const M gate = L::from_bits(p.moves << (part * L::kCount), part);
+    V flow;
+    if constexpr (kFeatures.relaxed) {
+      may_flow = true;
+      flow = L::min(relaxed<kDiagonal>(p, own, drop, axis, gate), most);
+    } else {
+      flow = L::min(wanted<kDiagonal>(p, own, axis, gate, most, may_flow), most);
+    }
+    flow = L::keep(gate, flow);
+    return L::select(p.gives, flow, L::zero() - flow);
+  }
 
-    V beside = L::zero();
-    if (!kDiagonal && m.walls)
-      for (const std::uint64_t blocked : m.beside[axis])
-        beside = beside + L::keep(L::from_bits(blocked, part), L::set(1));
-    // (c drive + (R << 10)) >> 26 is computed as (c drive >> 8, and R << 2) >> 18, since the fine bits of c
-    // only carry. Diagonals do likewise. In 32 bits a lane, the lower half is not kept.
-    const V drive =
-        driven<kDiagonal>(L::min(drop, L::set(kDiagonal ? 724 : 512)), gate, own.bed, bed, beside);
-    const V fine = L::high(c.fine, drive), low = L::low(c.coarse, drive) + fine;
-    const V high = L::add_if(L::less(low, fine), L::high(c.coarse, drive), L::set(1));
+  // (c drive + (R << 10)) >> 26 is computed as (c drive >> 8, and R << 2) >> 18, since the fine bits of c
+  // only carry. Diagonals do likewise. In 32 bits a lane, the lower half is not kept.
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V wanted(const Pair& p, const Cell& own, int axis, M gate, V most,
+                                  bool& may_flow) const {
+    V drive = L::min(p.drop, L::set(kDiagonal ? 724 : 512)), factor;  // in 1/8192 cell
+    drive = this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor)
+                ? L::template shift_left<4>(drive)
+                : L::high(L::template shift_left<6>(drive), factor);
+    const V fine = L::high(p.conductance.fine, drive), low = L::low(p.conductance.coarse, drive) + fine;
+    const V high = L::add_if(L::less(low, fine), L::high(p.conductance.coarse, drive), L::set(1));
     constexpr int kShift = kDiagonal ? 4 : 2;
     const V some = L::min(high | L::template shift_right<kShift>(low), most);  // with the largest R
-    if ((L::to_bits(L::less(L::zero(), some)) & moves) != 0) may_flow = true;
+    if ((L::to_bits(L::less(L::zero(), some)) & p.moves) != 0) may_flow = true;
     const V sum = L::carry(high + L::set(whole_[axis]), low, L::set(rest_[axis]));
-    const V flow = L::keep(gate, L::min(L::template shift_right<kShift>(sum), most));
-    return L::select(gives, flow, L::zero() - flow);
+    return L::template shift_right<kShift>(sum);
   }
 
-  struct Mobility {  // in 1/65536, and 256ths of that in the upper byte
-    V coarse, fine;
-  };
-  struct Conductance {
-    V coarse, fine;
-  };
-
-  // Limits a mobility by the depth towards a run, and by 1/8 towards a bare flank.
-  [[gnu::always_inline]] static Mobility limited(V coarse, V fine, M to_run, V limit) {
-    const V most = L::select(to_run, limit, L::set(8192));
-    return {L::min(coarse, most), L::keep(L::less(coarse, most), fine)};
-  }
-
-  // Returns the mobility of both cells of a pair together.
-  [[gnu::always_inline]] Mobility mobilities(const Cell& own, std::ptrdiff_t there, M gives, M here_runs,
-                                             M there_runs) const {
-    const V limit = L::load_any(r_.limit + there);
-    const Mobility a = limited(own.mobility, own.fine, there_runs, own.limit);
-    const Mobility b =
-        limited(L::load_any(r_.mobility + there), L::load_any(r_.fine + there), here_runs, limit);
-    const V all = a.fine + b.fine, carried = L::add_if(L::less(all, a.fine), a.coarse + b.coarse, L::set(1));
-    // If the taker is, or stands on, a run, the mobility is at most twice the giver's limit.
-    const V giver = L::select(gives, own.limit, limit), taker = L::select(gives, limit, own.limit);
-    const V most = L::select(L::equal(taker, L::zero()), L::set(0xFFFF), giver + giver);
-    return {L::min(carried, most), L::keep(L::less(carried, most), all)};
-  }
-
-  // Returns (s A) >> 12, at most 2^24 - 1.
-  [[gnu::always_inline]] static Conductance conductance(const Mobility& s, V amount) {
-    const V fine = L::high(s.fine, amount), low = L::low(s.coarse, amount) + fine;
-    const V high = L::add_if(L::less(low, fine), L::high(s.coarse, amount), L::set(1));
-    const M over = L::less(L::set(4095), high);
-    return {
-        L::select(over, L::set(0xFFFF), L::template shift_left<4>(high) | L::template shift_right<12>(low)),
-        L::select(over, L::set(0xFF00), L::template shift_left<4>(low) & L::set(0xFF00))};
-  }
-
-  // Returns the drop in 1/8192 cell, less on a slope, and more beside blocked cells. Most beds are level, or
-  // none, and then nothing is looked up.
+  // Returns the drop of relaxed heads, in 1/32768 cell, and turns the pair round if it is below 0.
   template <bool kDiagonal>
-  [[gnu::always_inline]] V driven(V drop, M gate, V bed, V other, V beside) const {
-    const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
-    const M none = L::equal(L::min(bed, other), L::zero());
-    const V steps = L::keep(gate, L::select(none, L::zero(), L::min(between, L::set(16))));
-    const bool walls = !kDiagonal && L::nonzero(beside);
-    if (!L::nonzero(steps) && !walls) return L::template shift_left<4>(drop);
-    const V at = L::template shift_left<11>(steps);
-    V slope = L::lookup(slope_[kDiagonal], at);
-    if (walls) slope = slope + L::low(beside, L::template shift_right<3>(L::lookup(slope_[1], at)));
-    return L::high(L::template shift_left<6>(drop), slope);
+  [[gnu::always_inline]] V relaxed_drop(Pair& p, std::ptrdiff_t at, int axis, M runs) const {
+    constexpr int kMost = kDiagonal ? 724 : 512;
+    const std::ptrdiff_t there = at + to_other_[axis];
+    const Wide a = L::unpack(L::load(r_.relaxed_low + at), L::load(r_.relaxed_high + at));
+    const Wide b = L::unpack(L::load_any(r_.relaxed_low + there), L::load_any(r_.relaxed_high + there));
+    const V down = L::narrow({a.low - b.low, a.high - b.high});
+    const V up = L::narrow({b.low - a.low, b.high - a.high});
+    const V own_drop = L::template shift_left<6>(L::min(p.drop, L::set(kMost)));
+    const V gives = L::keep(p.gives, L::set(1));
+    const V now = L::select(
+        runs, L::select(L::less(L::zero(), down | up), L::keep(L::less(up, down), L::set(1)), gives), gives);
+    const M turns = L::less(L::zero(), gives ^ now);
+    const V giver = L::select(turns, p.taker, p.giver);
+    p.taker = L::select(turns, p.giver, p.taker);
+    p.giver = giver;
+    p.gives = L::less(L::zero(), now);
+    return L::min(L::select(runs, down | up, own_drop), L::set(64 * kMost));
   }
 
-  // Returns heads in 32 bits.
-  [[gnu::always_inline]] Wide plumbed(V head, std::ptrdiff_t at) const {
-    const M cut = L::equal(head, L::set(0xFFFF));
-    return L::unpack(L::select(cut, L::load_any(r_.deep_low + at), head),
-                     L::keep(cut, L::load_any(r_.deep_high + at)));
+  // Returns what relaxed heads let flow, at most 65535. (c drive >> (8 + bits)) has 32 bits.
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V relaxed(const Pair& p, const Cell& own, V drop, int axis, M gate) const {
+    V drive = L::template shift_right<1>(drop), factor;  // in 1/16384 cell
+    if (!this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor))
+      drive = L::high(drop, L::template shift_left<1>(factor));
+
+    const V fine = L::high(p.conductance.fine, drive), product = L::low(p.conductance.coarse, drive);
+    const V low = product + fine;
+    V high = L::add_if(L::less(low, fine), L::high(p.conductance.coarse, drive), L::set(1));
+    const V sum = low + L::set(rest_[axis]);
+    high = L::add_if(L::less(sum, low), high + L::set(whole_[axis]), L::set(1));
+    // The sum is shifted to the right by 19 or 21, less bits.
+    const int left = step_.relaxed_bits - (kDiagonal ? 5 : 3);
+    if (left < 0) return L::high(high, L::set(1 << (16 + left)));
+    const V shifted = L::low(high, L::set(1 << left)) | L::high(sum, L::set(1 << left));
+    return L::select(L::less(L::set(0xFFFF >> left), high), L::set(0xFFFF), shifted);
   }
 
   [[gnu::always_inline]] void clear(int w, int y, int part) {
@@ -293,16 +197,11 @@ class ExchangePairs {
   }
 
   static constexpr std::uint64_t kAll = (std::uint64_t{1} << L::kCount) - 1;
-  const View v_;
-  const Runs r_;
-  const Step& step_;
-  const int z_;
   Currents& c_;
-  std::ptrdiff_t to_other_[4];  // to the other cell of a pair
-  int dithered_ = -1;           // the row of the two below
-  // Hold the dither in 1/65536 of what a shift keeps: its whole part, and 65535 less the rest.
+  int dithered_ = -1;  // the row of the two below
+  // Hold the dither of the rounding: its upper half, and 65535 less the lower half. Where heads relax, that
+  // is the lower half itself.
   int whole_[4], rest_[4];
-  const typename L::Table slope_[2];  // for axes, for diagonals
 };
 
 }  // namespace voxmelt::simd

@@ -47,9 +47,10 @@ class HiddenReference : public step::DeviceStepper {
   void run_step(std::uint32_t step, const step::Irradiance* irradiance) override {
     ++traffic.steps;
     const rule::Law law = parameters_.flow.law;
-    const int substeps = law == rule::Law::viscous ? scalar::count_substeps(parameters_, volume_) : 1;
-    step::Moment moment(step, 0, substeps);
-    for (const step::Phase phase : step::phase_order(law, substeps)) {
+    const step::Cadence cadence =
+        law == rule::Law::viscous ? scalar::count_substeps(parameters_, volume_) : step::Cadence{};
+    step::Moment moment(step, 0, cadence);
+    for (const step::Phase phase : step::phase_order(law, cadence.substeps)) {
       reference_.run(phase, moment, irradiance, volume_, ledger_);
       if (phase == step::Phase::spread) ++moment.substep;
     }

@@ -96,12 +96,12 @@ class Recorder final : public step::HostStepper {
   void run(Phase phase, step::Moment moment, const step::Irradiance* irradiance, Volume&,
            state::Ledger&) override {
     calls.push_back({phase, moment.step, moment.substep, moment.substeps,
-                     irradiance == nullptr ? -1 : *irradiance->data()});
+                     irradiance == nullptr ? -1 : *irradiance->data(), moment.stages});
   }
   struct Call {
     Phase phase;
     std::uint32_t step;
-    int substep, substeps, irradiance;
+    int substep, substeps, irradiance, stages;
   };
   static inline std::vector<Call> calls;
 };
@@ -151,10 +151,11 @@ TEST(Simulation, SubstepsSettleAndSpreadAndFallOnce) {
                                     excess, spread, excess, spread, gravity};
   ASSERT_EQ(Recorder::calls.size(), 20u);
   for (std::size_t i = 0; i < 20; ++i) {
-    const auto& [phase, step, substep, substeps, irradiance] = Recorder::calls[i];
+    const auto& [phase, step, substep, substeps, irradiance, stages] = Recorder::calls[i];
     EXPECT_EQ(phase, order[i % 10]);
     EXPECT_EQ(step, i / 10);
     EXPECT_EQ(substeps, 3);
+    EXPECT_EQ(stages, 1);
     if (phase == excess || phase == spread) {
       EXPECT_EQ(substep, static_cast<int>(i % 10 - 3) / 2);
     }
@@ -173,6 +174,26 @@ TEST(Simulation, CountsTheSubstepsThatItsDeepestColumnNeeds) {
     Simulation s(p, v, kRecorder);
     s.step();
     EXPECT_EQ(s.substeps(), needed) << deepest;
+  }
+}
+
+// The deepest column needs 5 sub-steps. What K leaves of them takes S stages, with S (S + 1) / 2 >= 5 / K.
+TEST(Simulation, CountsTheStagesThatSubstepsLeave) {
+  Parameters p = viscous(0.1);
+  Volume v(Grid{4, 5, 1});
+  fill(v, {0, 0, 0, 1, 3, 1}, kOne);
+  struct Row {
+    std::uint16_t substeps, substeps_max, stages_max;
+    int stages;
+  };
+  for (const Row& row : {Row{0, 1, 16, 3}, Row{0, 2, 16, 2}, Row{0, 4, 16, 2}, Row{0, 5, 16, 1},
+                         Row{0, 1, 2, 2}, Row{0, 1, 1, 1}, Row{1, 9, 16, 3}, Row{3, 9, 16, 2}}) {
+    p.flow.viscous.substeps = row.substeps;
+    p.flow.viscous.substeps_max = row.substeps_max;
+    p.flow.viscous.stages_max = row.stages_max;
+    Simulation s(p, v, kRecorder);
+    s.step();
+    EXPECT_EQ(Recorder::calls.back().stages, row.stages) << row.substeps << " " << row.substeps_max;
   }
 }
 

@@ -58,6 +58,7 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
     Random random(seed * 6151 + (law == rule::Law::paper ? 1 : 2));
     const Grid grid{random.between(600, 2200), random.between(8, 17), random.between(1, 2)};
     Parameters parameters = hostile_parameters(random, law, grid);
+    if (random.one_in(2)) parameters.flow.viscous.stages_max = random.any<std::uint16_t>({2, 3, 5, 16});
     parameters.heat.radiation = false;
     Volume start = hostile_volume(random, parameters, grid);
     if (seed % 2 == 1) thin_out(random, start);

@@ -62,6 +62,7 @@ Parameters calm_parameters(Random& random, rule::Law law, Grid g) {
   p.flow.paper.reheat = static_cast<std::uint16_t>(random.any({0, 30, 30000}));
   p.flow.viscous.mobility = random.any<std::uint64_t>({0, 245760, 19088744, 819200000});
   p.flow.viscous.yield = static_cast<std::uint32_t>(random.any({0, 131, 60000}));
+  p.flow.viscous.stages_max = random.any<std::uint16_t>({1, 1, 2, 16});
   if (random.one_in(2)) p.flow.fall = {};
   if (random.one_in(4)) p.flow.fall = {.factor = 65535, .wall_factor = 65535, .minimum = 0};
   p.vents.clear();

@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernel/engine/parallel/job.h"
+#include "kernel/engine/parallel/layer_memory.h"
 #include "kernel/engine/parallel/walls.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/engine/scalar/substeps.h"
@@ -42,9 +44,10 @@ class ViscousDriver {
         for_fall_(tiles(grid)),
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
-             fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
-             planes_[0].data(), planes_[1].data(), deep_.data(),      limits_.data()};
+    for (auto& field : relaxed_) field = state::Field<std::uint16_t>(grid);
+    runs_ = {fields_[0].data(),  fields_[1].data(), fields_[2].data(), fields_[3].data(),  fields_[4].data(),
+             fields_[5].data(),  fields_[6].data(), fields_[7].data(), relaxed_[0].data(), relaxed_[1].data(),
+             relaxed_[2].data(), planes_[0].data(), planes_[1].data(), deep_.data(),       limits_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -77,6 +80,8 @@ class ViscousDriver {
 
   // Counts the tiles that the last phase was asked for.
   int awake() const { return awake_; }
+  // Counts the stages of the last settle.
+  int stages() const { return stages_; }
   // Tells whether `settle` named every tile in which it changed something.
   bool told() const { return told_; }
 
@@ -140,8 +145,10 @@ class ViscousDriver {
   }
 
   void settle(const View& view, const Step& step, const state::Volume& volume, Books& books) {
-    if (step.substeps != substeps_) std::fill(for_settle_.begin(), for_settle_.end(), ~TileRow{0});
+    if (step.substeps != substeps_ || step.stages != stages_)
+      std::fill(for_settle_.begin(), for_settle_.end(), ~TileRow{0});
     substeps_ = step.substeps;
+    stages_ = step.stages;
     // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the kernels write it through `view`
     const state::Volume before = volume;
     const Tiles work = take(for_settle_, view, false, false);
@@ -162,8 +169,12 @@ class ViscousDriver {
     count(work);
     std::fill(restless_.begin(), restless_.end(), 0);
     Tiles changed(work.size());
+    const bool relaxes = step.stages > 1;
+    if (relaxes && !layer_) layer_.emplace(view);
+    for (int y = view.ny - 1; relaxes && y >= 0; --y) kernels_.relax(view, step, y, runs_, layer_->memory());
+    const auto exchange_pairs = relaxes ? kernels_.exchange_relaxed : kernels_.exchange_pairs;
     const auto exchange = [&](int z, SliceCurrents& to) {
-      kernels_.exchange_pairs(view, step, z, &work[slice(z)], runs_, &restless_[slice(z)], to.currents);
+      exchange_pairs(view, step, z, &work[slice(z)], runs_, &restless_[slice(z)], to.currents);
     };
     const int cut = way_.cut > 0 && way_.cut < view.nz ? way_.cut : view.nz;
     if (cut < view.nz) exchange(cut - 1, currents_[2]);
@@ -218,6 +229,8 @@ class ViscousDriver {
   Way way_;
   scalar::Reference rest_;
   std::array<state::Field<std::uint16_t>, 8> fields_;
+  std::array<state::Field<std::uint16_t>, 3> relaxed_;
+  std::optional<parallel::LayerMemory> layer_;
   std::array<state::BitPlane, 2> planes_;
   std::vector<TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;
@@ -228,6 +241,7 @@ class ViscousDriver {
   int rows_, awake_ = 0;
   bool told_ = true;
   std::uint32_t substeps_ = 0;  // sub-steps of the last settle
+  int stages_ = 1;              // stages then
   Tiles for_settle_, for_exchange_, for_fall_, restless_;
 };
 

@@ -98,6 +98,7 @@ Parameters hostile_viscous(Random& random, Grid grid) {
   p.heat.radiation = false;
   if (random.one_in(2)) p.flow.viscous.mobility = static_cast<std::uint64_t>(random.below(30000 * 4096));
   if (random.one_in(2)) p.flow.viscous.yield = static_cast<std::uint32_t>(random.below(1 << 22));
+  if (random.one_in(2)) p.flow.viscous.stages_max = random.any<std::uint16_t>({2, 3, 5, 16});
   return p;
 }
 
@@ -251,14 +252,15 @@ TEST(ViscousKernels, MaySleepWhileTheSubstepsChange) {
   for (int round = 0; round < 8; ++round) {
     Parameters p = worlds::viscous(random.any({0.1, 0.3, 1.0}), 0.02);
     p.flow.viscous.substeps = 0;
-    p.flow.viscous.substeps_max = 24;
+    p.flow.viscous.substeps_max = round % 2 == 0 ? 24 : 4;
+    p.flow.viscous.stages_max = round % 2 == 0 ? 1 : 16;
     Volume start(grid);
     worlds::fill(start, {0, 0, 0, 130, random.between(1, 3), 4}, 4096);
     const int dam = random.between(20, 50);
     worlds::fill(start, {dam, 0, 0, dam + random.between(4, 12), random.between(6, 9), 4}, 4096);
     std::vector<int> counted(81);
-    const auto count = [&](std::size_t way, step::Phase phase, std::uint32_t step, ViscousDriver&) {
-      if (way == 0 && phase == step::Phase::spread) ++counted[step];
+    const auto count = [&](std::size_t way, step::Phase phase, std::uint32_t step, ViscousDriver& driver) {
+      if (way == 0 && phase == step::Phase::spread) counted[step] += driver.stages();
     };
     std::vector<Way> ways = ways_for(random, grid, true);
     for (Way& way : ways) way.tile_shift = 0;
