@@ -127,6 +127,10 @@ Cases spreading() {
        "Dams 16 high and 32 long. Beside them stands lubrication theory, integrated by finite volumes an "
        "eighth of a cell long. With --quick the channel is 9 cells wide, not 17.",
        measure_dam_viscosity},
+      {"deep_lake", "Spreading", "A wave on a deep lake levels out at the rate of theory",
+       "A lake 20 deep and 64 long, kappa 0.01, with a wave of one cell. It wants some 90 sub-steps. Relaxed "
+       "heads (flow.viscous.stages_max) do with one; without them, few sub-steps hold it back.",
+       measure_deep_lake},
       {"drop_shape", "Spreading", "A drop stays round",
        "A disc of radius 12 and depth 4 under both laws. The paper's law is no viscous liquid: its exponent "
        "is reported.",
