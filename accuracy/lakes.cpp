@@ -1,0 +1,75 @@
+// Runs deep lakes, whose liquid wants many sub-steps though it hardly moves.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "accuracy/cells.h"
+#include "accuracy/measure.h"
+#include "accuracy/spreading.h"
+#include "accuracy/trial.h"
+
+namespace voxmelt::accuracy {
+namespace {
+
+constexpr double kKappa = 0.01, kDepth = 20, kHeight = 1;
+constexpr int kLength = 64, kWidth = 3;
+
+double wave_at(int x) { return std::cos(std::numbers::pi * (x + 0.5) / kLength); }
+
+// Returns the height of the wave, its part in the depth of all columns.
+double height_of_wave(const state::Volume& volume) {
+  const Columns columns(volume);
+  double sum = 0;
+  for (int z = 0; z < kWidth; ++z)
+    for (int x = 0; x < kLength; ++x)
+      sum +=
+          columns.depth[static_cast<std::size_t>(z) * columns.nx + static_cast<std::size_t>(x)] * wave_at(x);
+  return 2 * sum / (kLength * kWidth);
+}
+
+}  // namespace
+
+// Lets a wave of half a length on a lake level out. In lubrication theory its height goes as exp(-rate t),
+// with rate = (kappa / 3) depth^3 (pi / length)^2.
+Outcome measure_deep_lake(const Conditions& conditions) {
+  struct Way {
+    std::string name;
+    int substeps_max, stages_max;
+    double gate;
+  };
+  const double wave_number = std::numbers::pi / kLength;
+  const double rate = kKappa / 3 * std::pow(kDepth, 3) * wave_number * wave_number;
+  Outcome outcome;
+  for (const Way& way :
+       {Way{"as many sub-steps as needed", 1024, 1, 0.02}, Way{"4 sub-steps, relaxed", 4, 16, 0.02},
+        Way{"1 sub-step, relaxed", 1, 16, 0.03}, Way{"8 sub-steps", 8, 1, 0}, Way{"1 sub-step", 1, 1, 0}}) {
+    Trial trial(conditions, "flow",
+                {fmt::format("grid.size=[{},{},{}]", kLength, static_cast<int>(kDepth) + 4, kWidth),
+                 fmt::format("flow.viscous.kappa={}", kKappa),
+                 fmt::format("flow.viscous.substeps_max={}", way.substeps_max),
+                 fmt::format("flow.viscous.stages_max={}", way.stages_max)},
+                [&](state::Volume& v) {
+                  for (int z = 0; z < kWidth; ++z)
+                    for (int x = 0; x < kLength; ++x) put_column(v, x, z, kDepth + kHeight * wave_at(x));
+                });
+    const double first = height_of_wave(trial.volume());
+    for (const std::uint32_t step : {8u, 24u}) {
+      trial.run_to(step);
+      Row row{.setting = fmt::format("{}, step {}", way.name, step),
+              .quantity = "height of the wave, part of the first",
+              .value = height_of_wave(trial.volume()) / first,
+              .exact = std::exp(-rate * step),
+              .measure = Measure::absolute,
+              .speed = trial.speed()};
+      if (way.gate > 0) row.gate = way.gate;
+      outcome.rows.push_back(std::move(row));
+    }
+  }
+  return outcome;
+}
+
+}  // namespace voxmelt::accuracy
