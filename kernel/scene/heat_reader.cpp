@@ -51,14 +51,24 @@ void read_conduction(Reader& reader, rule::Heat& heat, std::vector<std::string>&
   if (asked == 26) heat.weight_corner = weight(gamma, 3);
 }
 
+// Returns what conducts through half a cell, from its surface to its centre. On a plane, four edges and four
+// corners lead through each face.
+double half_cell(const rule::Heat& heat) {
+  return 2 * (heat.weight_face + 4 * (heat.weight_edge + heat.weight_corner)) / 65536.0;
+}
+
+// The air meets the surface of a cell, and its heat is that of its centre. So the exchange and half a cell
+// lie one behind the other, unless nothing conducts: then a cell has one temperature.
 void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>& warnings) {
   heat.air = true;
-  const double exchange = reader.number("exchange", at_least(kSmallestExchange).at_most(kLargestExchange));
+  const double given = reader.number("exchange", at_least(kSmallestExchange).at_most(kLargestExchange));
+  const double half = half_cell(heat), exchange = half > 0 ? given / (1 + given / half) : given;
   heat.air_exchange = to_factor16(exchange);
   const double taken = heat.air_exchange / 65536.0;
   if (std::abs(taken / exchange - 1) > 0.02)
     warnings.push_back(
-        fmt::format("heat.air.exchange = {} is taken as {:.3g}, a whole number of 1/65536", exchange, taken));
+        fmt::format("heat.air.exchange = {} is taken as {:.3g}, in whole numbers of 1/65536", given,
+                    half > 0 ? taken / std::max(1e-9, 1 - taken / half) : taken));
   const double bottom = reader.number("bottom", fraction());
   const double top = reader.number("top", fraction(), bottom);
   for (int y = 0; y < ny; ++y)

@@ -109,8 +109,6 @@ TEST(Load, HotLiquidIsAsMobileAsItsLawSays) {
   EXPECT_EQ(paper.parameters.flow.mobility_table[16], 9129);  // 32768 x 1.114387 / 4
 }
 
-// A checkerboard's difference is multiplied by 1 - 12 gamma / pi, which is -0.910 at gamma 0.5 and -0.5 at pi
-// / 8.
 TEST(Load, AnExchangeThatIsRoundedIsWarnedOf) {
   const SceneFolder folder;
   const auto scene = [&](const char* exchange) {
@@ -118,10 +116,25 @@ TEST(Load, AnExchangeThatIsRoundedIsWarnedOf) {
   };
   EXPECT_EQ(
       scene("2e-5").warnings,  // 1.31 of 65536
-      std::vector<std::string>{"heat.air.exchange = 2e-05 is taken as 1.53e-05, a whole number of 1/65536"});
+      std::vector<std::string>{"heat.air.exchange = 2e-05 is taken as 1.53e-05, in whole numbers of 1/65536"});
   EXPECT_TRUE(scene("0.001").warnings.empty());  // 65.5
 }
 
+// Half a cell conducts 2 gamma / pi, which is 6258 / 65536 at gamma 0.15. Behind it an exchange of 0.1 is
+// 0.1 / (1 + 0.1 / 0.0954895) = 0.0488463. Without conduction it is 0.1.
+TEST(Load, AirMeetsTheSurfaceOfACell) {
+  const SceneFolder folder;
+  const auto exchange = [&](const char* gamma) {
+    return folder
+        .load_text(kLeast + "[heat]\ngamma = " + gamma + "\n[heat.air]\nexchange = 0.1\nbottom = 1\n")
+        .parameters.heat.air_exchange;
+  };
+  EXPECT_EQ(exchange("0.15"), 3201);
+  EXPECT_EQ(exchange("0"), 6554);
+}
+
+// A checkerboard's difference is multiplied by 1 - 12 gamma / pi, which is -0.910 at gamma 0.5 and -0.5 at pi
+// / 8.
 TEST(Load, AGammaThatLetsHeatSwingIsWarnedOf) {
   const SceneFolder folder;
   const auto scene = [&](const char* gamma, const char* neighbours) {
@@ -230,7 +243,7 @@ doubling = 0.03125
   EXPECT_EQ(p.heat.weight_edge, 5461);
   EXPECT_EQ(p.heat.weight_corner, 3640);
   EXPECT_EQ(p.heat.convection, 32767);
-  EXPECT_EQ(p.heat.air_exchange, 37837);
+  EXPECT_EQ(p.heat.air_exchange, 27031);  // 0.57735, behind 2 x 47326 / 65536
   ASSERT_EQ(p.heat.air_temperature.size(), 9u);
   EXPECT_EQ(p.heat.air_temperature.front(), 0);
   EXPECT_EQ(p.heat.air_temperature[4], 32768);
