@@ -12,6 +12,7 @@
 namespace voxmelt::rule {
 
 inline constexpr int kMostStages = 16;
+inline constexpr std::int32_t kMostRelaxedHead = 1 << 24;    // 32768 cells, so that all fits 32 bits
 inline constexpr std::int32_t kRelaxedOne = 32768;           // one cell of relaxed head
 inline constexpr std::int32_t kMostImpetus = (1 << 20) - 1;  // 32 cells
 

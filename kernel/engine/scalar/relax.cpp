@@ -1,4 +1,5 @@
 // Heads relax before the viscous law's spread, if sub-steps are fewer than the state needs.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,7 +49,7 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
   for (int stage = 1;; ++stage) {
     rows.for_each([&](int x, int y, int z) {
       const state::Slot i = cells.at(x, y, z);
-      const std::int32_t own_head = head_[i] - (y - 2) * rule::kHeadOne;
+      const std::int32_t own_head = std::min(rule::kMostRelaxedHead, head_[i] - (y - 2) * rule::kHeadOne);
       if (in_run_[i]) relaxed_[i] = rule::integrated(own_head, relaxing[i].change, stage, relaxation);
     });
     if (stage == relaxation.stages) return;

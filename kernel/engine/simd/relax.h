@@ -67,8 +67,11 @@ class RelaxLayer : ViscousPairs<Arch, true> {
   [[gnu::always_inline]] void keep_head(int i, std::ptrdiff_t at) const {
     const V head = L::load(r_.head + at);
     const M cut = L::equal(head, L::set(0xFFFF));
-    L::store(m_.head + i * L::kCount, L::select(cut, L::load(r_.deep_low + at), head));
-    L::store(m_.head_high + i * L::kCount, L::keep(cut, L::load(r_.deep_high + at)));
+    const V high = L::keep(cut, L::load(r_.deep_high + at));
+    const V low = L::select(cut, L::load(r_.deep_low + at), head);
+    const M over = L::less(L::set(255), high);  // at most 2^24
+    L::store(m_.head + i * L::kCount, L::select(over, L::zero(), low));
+    L::store(m_.head_high + i * L::kCount, L::min(high, L::set(256)));
   }
 
   [[gnu::always_inline]] bool level_pairs(const RelaxMemory::Item& item, int part, const Masks& m,
