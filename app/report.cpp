@@ -127,9 +127,10 @@ std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::
   const double share = static_cast<double>(limit.limited_mass) / static_cast<double>(limit.mass);
   return fmt::format(
       "{:.0f} % of the liquid flows more slowly than its viscosity asks; flow.viscous.{} "
-      "mends that, and takes longer",
+      "mends that, and takes longer{}",
       100 * share,
-      law.counts_substeps() ? fmt::format("substeps_max above {}", law.substeps_max) : "substeps = \"auto\"");
+      law.counts_substeps() ? fmt::format("substeps_max above {}", law.substeps_max) : "substeps = \"auto\"",
+      law.relaxes() ? "" : "; stages_max = 16 mends most of it, and takes less");
 }
 
 void warn_of_limit(scene::Scene& scene, const Common& common, const run::Simulation& simulation) {

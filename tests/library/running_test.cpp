@@ -217,10 +217,10 @@ const std::vector<Other> kPaper = {{"heat.gamma", 0.1},
                                    {"flow.thermal.doubling", 0.3}};
 const std::vector<Other> kOnSolid = {{"flow.paper.alpha_solid", 0.2}};
 const std::vector<Other> kTubes = {{"flow.viscous.stiffness", 1}};
-const std::vector<Other> kViscous = {{"heat.neighbours", 6},           {"flow.fall.factor", 0.5},
-                                     {"flow.viscous.kappa", 0.5},      {"flow.viscous.yield", 1},
-                                     {"flow.viscous.substeps", 4},     {"flow.viscous.substeps_max", 1},
-                                     {"material.melting_point", 0.42}, {"flow.thermal.reference", 0.9}};
+const std::vector<Other> kViscous = {
+    {"heat.neighbours", 6},          {"flow.fall.factor", 0.5},        {"flow.viscous.kappa", 0.5},
+    {"flow.viscous.yield", 1},       {"flow.viscous.substeps", 4},     {"flow.viscous.substeps_max", 1},
+    {"flow.viscous.stages_max", 16}, {"material.melting_point", 0.42}, {"flow.thermal.reference", 0.9}};
 
 // The second program is a scene that begins from an export, and has the other value from its start.
 void expect_a_set_value_acts_as_said(const std::filesystem::path& file, const std::vector<Other>& others,

@@ -117,6 +117,8 @@ const std::vector<Case>& cases() {
       {kBox + "[flow]\nlaw = \"viscous\"\n", "scene.toml:7:1: error: flow.viscous is missing"},
       {kBox + "[flow]\nlaw = \"viscous\"\n[flow.viscous]\nkappa = 1\nsubsteps = 0\n",
        "scene.toml:11:12: error: flow.viscous.substeps = 0 is outside 1..1024"},
+      {kBox + "[flow]\nlaw = \"viscous\"\n[flow.viscous]\nkappa = 1\nstages_max = 17\n",
+       "scene.toml:11:14: error: flow.viscous.stages_max = 17 is outside 1..16"},
       {kBox + "[flow]\nlaw = \"viscous\"\n[flow.viscous]\nkappa = 1\nsubsteps = \"many\"\n",
        "scene.toml:11:12: error: flow.viscous.substeps = \"many\" is not one of auto"},
       {kBox + "[flow.paper]\nshare = 0.25\n",

@@ -322,6 +322,8 @@ TEST(Load, SubstepsOfTheViscousLaw) {
   EXPECT_EQ(law("substeps='auto'\n").substeps, 0);
   EXPECT_EQ(law("").substeps, 0);
   EXPECT_EQ(law("substeps='auto'\nsubsteps_max=16\n").substeps_max, 16);
+  EXPECT_EQ(law("").stages_max, 1);
+  EXPECT_EQ(law("stages_max=16\n").stages_max, 16);
 }
 
 TEST(Load, MobilityOfTheViscousLaw) {

@@ -192,6 +192,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "stiffness",
                           "substeps",
                           "substeps_max",
+                          "stages_max",
                           "thermal_viscosity",
                           "mobility_table",
                           "mobility_reference",
