@@ -192,7 +192,6 @@ std::vector<double> silhouettes_of_cells(const std::vector<Source>& sources, dou
 // the sphere. A ball of cells has the symmetry of the grid, under which no two of the 100 are alike.
 Outcome measure_lit_ball(const Conditions& conditions) {
   const int count = conditions.quick ? 40 : 100;
-  const std::string those = fmt::format(" of {}", count);
   const double exact = ball_intercepts(kBallRadius, kBallDistance);
   Conditions without_baseline = conditions;
   without_baseline.baseline = false;
@@ -214,7 +213,6 @@ Outcome measure_lit_ball(const Conditions& conditions) {
   std::vector<Source> sources;
   for (const Direction& d : spiral(count)) sources.push_back(far_source(kBallMiddle, d, kBallDistance));
   const std::vector<double> silhouettes = silhouettes_of_cells(sources, exact);
-
   struct Setting {
     int rays;
     std::optional<double> of_ball, of_cells, of_mean;  // gates
@@ -223,6 +221,8 @@ Outcome measure_lit_ball(const Conditions& conditions) {
   for (const Setting& setting :
        {Setting{1, {}, {}, {}}, Setting{4, {}, 0.1, 0.01}, Setting{16, 0.1, 0.1, 0.01}}) {
     const std::string name = rays_text(setting.rays);
+    const std::string worst_of = fmt::format("{}, worst of {}", name, count);
+    const std::string mean_of = fmt::format("{}, mean of {}", name, count);
     std::vector<double> of_ball, of_cells;
     Speed speed;
     for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -231,10 +231,10 @@ Outcome measure_lit_ball(const Conditions& conditions) {
       of_ball.push_back(lit.energy / exact);
       of_cells.push_back(of_ball.back() / silhouettes[i]);
     }
-    row(name + ", worst" + those, "the ball", worst(of_ball), setting.of_ball, speed);
-    row(name + ", mean" + those, "the ball", mean(of_ball), {}, speed);
-    row(name + ", worst" + those, "its cells", worst(of_cells), setting.of_cells, speed);
-    row(name + ", mean" + those, "its cells", mean(of_cells), setting.of_mean, speed);
+    row(worst_of, "the ball", worst(of_ball), setting.of_ball, speed);
+    row(mean_of, "the ball", mean(of_ball), {}, speed);
+    row(worst_of, "its cells", worst(of_cells), setting.of_cells, speed);
+    row(mean_of, "its cells", mean(of_cells), setting.of_mean, speed);
     curves.push_back(sorted_curve(name, of_ball));
   }
   outcome.rows.push_back({.setting = fmt::format("mean of {} directions", count),
