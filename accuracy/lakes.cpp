@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "accuracy/cells.h"
 #include "accuracy/measure.h"

@@ -73,13 +73,10 @@ std::vector<std::size_t> chosen_points(const explore::Answer& answer, std::size_
   return chosen;
 }
 
-void require_stages(const explore::Question& question) {
+// Every design lays out the same state, with its irradiance where that is brightest.
+void require_stages_and_room(const explore::Question& question, const std::string& memory) {
   const std::string missing = hwmodel::unmodelled_rule(question.parameters);
   if (!missing.empty()) throw UsageError(fmt::format("error: {}", missing));
-}
-
-// Every design lays out the same state, with its irradiance where that is brightest.
-void require_room(const explore::Question& question, const std::string& memory) {
   if (!question.memory) return;
   const hwmodel::Design design = hwmodel::design_of(question.parameters, question.grid, {});
   const std::int64_t needed = hwmodel::stream_bytes(design, false), there = question.memory->bytes();
@@ -128,8 +125,7 @@ int run_explore(ExploreCommand command) {
   const step::Implementation& fast = find_implementation(common);
   run::Simulation ahead = run_ahead(scene, common, command.from, command.steps);
   question.grid = ahead.volume().grid;
-  require_stages(question);
-  require_room(question, command.memory);
+  require_stages_and_room(question, command.memory);
   question.first_step = ahead.step_number();
   ahead.begin_step();  // computes the irradiance of the step
   question.irradiance = ahead.irradiance();

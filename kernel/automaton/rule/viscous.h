@@ -248,4 +248,16 @@ VOXMELT_RULE std::int32_t relaxed_flow(const Column& giver, std::int32_t a, cons
   return static_cast<std::int32_t>(std::min<std::int64_t>(wanted, most_flow(a, taker, b, diagonal)));
 }
 
+// Returns the flow from one cell to the other. It is below 0 if it goes back. `fall` is by how much the first
+// one's relaxed head is higher.
+VOXMELT_RULE std::int32_t flow_between(const Column& one, std::int32_t a, const Column& other, std::int32_t b,
+                                       bool diagonal, std::int32_t dither, int blocked_beside,
+                                       std::int32_t fall, Relaxation relaxation) {
+  if (!relaxation.relaxes())
+    return viscous_flow(one, a, other, b, diagonal, dither, blocked_beside) -
+           viscous_flow(other, b, one, a, diagonal, dither, blocked_beside);  // one of them is 0
+  return relaxed_flow(one, a, other, b, diagonal, dither, blocked_beside, fall, relaxation) -
+         relaxed_flow(other, b, one, a, diagonal, dither, blocked_beside, -fall, relaxation);
+}
+
 }  // namespace voxmelt::rule

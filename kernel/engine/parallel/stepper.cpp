@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "kernel/automaton/rule/relax.h"
 #include "kernel/engine/simd/source.h"
 
 namespace voxmelt::parallel {
@@ -100,11 +99,10 @@ simd::Step step_of(const rule::Parameters& parameters, step::Phase phase, step::
   if (parameters.flow.law == rule::Law::paper) return step;
   const auto k = static_cast<std::uint32_t>(moment.substep), n = static_cast<std::uint32_t>(moment.substeps);
   step.substeps = n;
-  const rule::Relaxation relaxation{moment.stages};
-  step.stages = relaxation.stages;
-  step.relaxed_reach = relaxation.reach();
-  step.relaxed_bits = relaxation.bits();
-  step.relaxed_scale = relaxation.scale();
+  step.stages = moment.stages;
+  step.relaxed_reach = step.stages * (step.stages + 1) / 2;
+  while (1 << step.relaxed_bits < step.relaxed_reach) ++step.relaxed_bits;
+  step.relaxed_scale = (32768 << step.relaxed_bits) / step.relaxed_reach;
   for (std::uint32_t axis = 0; axis < 4; ++axis) {
     step.pair_dither[axis] = (dither + 16384 * axis) & 0xFFFF;
     step.turn[axis] = 65536 * ((k + axis * n / 4) % n);

@@ -1,6 +1,7 @@
 // Phase `excess` of the viscous law settles every run and gives its cells their head and mobility. (The
 // paper's law moves its excess in the same sweep as gravity.)
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -61,6 +62,7 @@ void move_part(const Run& run, std::int32_t from, std::int32_t to, std::int32_t 
 // Moves the parts through the faces of the run, upwards and then downwards.
 void move_in_order(const Run& run, std::int32_t offset) {
   std::vector<std::int64_t> below;  // for each face: the run's mass below it, before anything moves
+  below.reserve(static_cast<std::size_t>(run.n));
   std::int64_t sum = 0;
   for (std::int32_t k = 0; k < run.n - 1; ++k) below.push_back(sum += run.amount(k));
   const auto below_face = [&](std::int32_t k) { return below[k]; };

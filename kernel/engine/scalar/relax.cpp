@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/automaton/rule/relax.h"

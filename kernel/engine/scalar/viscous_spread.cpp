@@ -56,15 +56,8 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       const std::int32_t offset =
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
-      const auto flow = [&](const rule::Column& from, state::Slot a, const rule::Column& to_there,
-                            state::Slot b) {
-        return relaxation.relaxes()
-                   ? rule::relaxed_flow(from, volume.amount[a], to_there, volume.amount[b], diagonal, offset,
-                                        walls, relaxed_[a] - relaxed_[b], relaxation)
-                   : rule::viscous_flow(from, volume.amount[a], to_there, volume.amount[b], diagonal, offset,
-                                        walls);
-      };
-      const std::int32_t given = flow(own, i, there, j) - flow(there, j, own, i);  // one of them is 0
+      const std::int32_t given = rule::flow_between(own, volume.amount[i], there, volume.amount[j], diagonal,
+                                                    offset, walls, relaxed_[i] - relaxed_[j], relaxation);
       const std::int32_t taken = std::max(0, -given);
       out += std::max(0, given);
       in += taken;

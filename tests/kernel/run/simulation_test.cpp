@@ -177,7 +177,7 @@ TEST(Simulation, CountsTheSubstepsThatItsDeepestColumnNeeds) {
   }
 }
 
-// The deepest column needs 5 sub-steps. What K leaves of them takes S stages, with S (S + 1) / 2 >= 5 / K.
+// The deepest column needs 5 sub-steps. K of them leave S stages to do, with S (S + 1) / 2 >= 5 / K.
 TEST(Simulation, CountsTheStagesThatSubstepsLeave) {
   Parameters p = viscous(0.1);
   Volume v(Grid{4, 5, 1});

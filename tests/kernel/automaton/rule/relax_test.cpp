@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 namespace voxmelt::rule {
@@ -100,7 +100,7 @@ TEST(Relaxation, TwoColumnsKeepTheMeanOfTheirDrop) {
   }
 }
 
-// What relaxes keeps its sum, but for roundings, and makes no new highest or lowest.
+// A row that relaxes keeps its sum, but for roundings, and makes no new highest or lowest.
 TEST(Relaxation, ARowKeepsItsSumAndItsRange) {
   for (const int stages : {2, 4, 7, 11, 16}) {
     const Relaxation r{stages};
