@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "accuracy/cells.h"
 #include "accuracy/measure.h"
