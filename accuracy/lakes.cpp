@@ -35,19 +35,20 @@ double height_of_wave(const state::Volume& volume) {
 }  // namespace
 
 // Lets a wave of half a length on a lake level out. In lubrication theory its height goes as exp(-rate t),
-// with rate = (kappa / 3) depth^3 (pi / length)^2.
+// with rate = (kappa / 3) depth^3 (pi / length)^2. Heads that differ by 1/512 cell rest, which holds the wave
+// back in the end.
 Outcome measure_deep_lake(const Conditions& conditions) {
   struct Way {
     std::string name;
     int substeps_max, stages_max;
-    double gate;
+    bool gated;
   };
   const double wave_number = std::numbers::pi / kLength;
   const double rate = kKappa / 3 * std::pow(kDepth, 3) * wave_number * wave_number;
   Outcome outcome;
-  for (const Way& way :
-       {Way{"as many sub-steps as needed", 1024, 1, 0.02}, Way{"4 sub-steps, relaxed", 4, 16, 0.02},
-        Way{"1 sub-step, relaxed", 1, 16, 0.03}, Way{"8 sub-steps", 8, 1, 0}, Way{"1 sub-step", 1, 1, 0}}) {
+  for (const Way& way : {Way{"as many sub-steps as needed", 1024, 1, true},
+                         Way{"4 sub-steps, relaxed", 4, 16, true}, Way{"1 sub-step, relaxed", 1, 16, true},
+                         Way{"8 sub-steps", 8, 1, false}, Way{"1 sub-step", 1, 1, false}}) {
     Trial trial(conditions, "flow",
                 {fmt::format("grid.size=[{},{},{}]", kLength, static_cast<int>(kDepth) + 4, kWidth),
                  fmt::format("flow.viscous.kappa={}", kKappa),
@@ -66,7 +67,7 @@ Outcome measure_deep_lake(const Conditions& conditions) {
               .exact = std::exp(-rate * step),
               .measure = Measure::absolute,
               .speed = trial.speed()};
-      if (way.gate > 0) row.gate = way.gate;
+      if (way.gated) row.gate = step == 8 ? 0.02 : 0.04;
       outcome.rows.push_back(std::move(row));
     }
   }
