@@ -270,6 +270,16 @@ CASES = [
      [liquid(4096, 20000), liquid(4096, 9000), liquid(4096, 3000), liquid(4096, 20000), liquid(3904, 9000), liquid(904, 3000)],
      viscous(1, "substeps = 1, stages_max = 3"), 1,
      [(3656, 20000), (3717, 10302), (4915, 4000), (3797, 20000), (3423, 9961), (1684, 5779)], (6, 21192, 4, 16192)),
+    # Under a ceiling M = 81919 and 77919: both limits are 13107 / 20 = 655, then 491, and m = 2048 x 491 = 1005568. Below the
+    # top a = 4096: c = m, and k = 5 x 981 = 4905; I_1 differ by 10666 or 10667, and 798 are levelled. D = -1197 and 1197,
+    # drop = 32000 - 2394 = 29606, drive = 22204, and c drive / 2^27 = 166.35; D(1) and D(2) add 0.5 and 0.25, D(3) 0.75. In
+    # the top a = 127070 >> 1 = 63535, c = 15597842, and k = 5 x 15231 is cut to 65535: 10665 of 10666, so that
+    # D = -15998 and 15997, drop = 5, drive = 3 and w = 0.47.
+    ("a pair levels no more than its difference", [2, 5, 1],
+     [liquid(4096, 20000), liquid(4096, 9000)] * 4 + [liquid(65535, 20000), liquid(61535, 9000)],
+     viscous(1, "stiffness = 1, substeps = 1, stages_max = 2"), 0,
+     [(3930, 20000), (4262, 9428)] * 3 + [(3929, 20000), (4263, 9430), (65535, 20000), (61535, 9000)],
+     (10, 159838, 10, 159838)),
     # N = 5 and K = 2, so that two stages do. The first sub-step is that of the first case, but R = 16384: w = 331.8, and the
     # heat is 14550 with B = 0. Then m = 3149995 + 95630, c = 1751971, k = 1709, I_1 = 31871 and 23594: 215 are levelled.
     # drop = 24187, drive = 18140, R = 49152 and w = 237.5.
