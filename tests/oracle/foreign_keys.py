@@ -98,6 +98,7 @@ KEYS = {
     "flow.viscous.stiffness": Key(1, 8, 1, 8),
     "flow.viscous.substeps": Key(1, 1024, 1, 5, 2, 3, 4, 7, 64, 257),  # or "auto"
     "flow.viscous.substeps_max": Key(1, 1024, 1, 12, 2, 63),
+    "flow.viscous.stages_max": Key(1, 16, 2, 16, 2, 3, 5, 9, 15),
     "flow.thermal.reference": TEMPERATURE,
     "flow.thermal.doubling": Key(0.002, 1, 0.005, 0.5),
     "vent.at": POSITION,

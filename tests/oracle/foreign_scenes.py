@@ -123,6 +123,7 @@ class Maker:
             viscous.update(self.some("flow.viscous", "substeps_max", given=0.8))
         else:
             viscous.update(self.some("flow.viscous", "substeps", given=0.6))
+        viscous.update(self.some("flow.viscous", "stages_max", given=0.5))
         return viscous
 
     def paper(self):

@@ -233,6 +233,67 @@ CASES = [
      [(65535, 7)] * 103, (6180, 405006300, 0, 0)),
     # kappa 71: mobility_parameter is 67765039559, and raw 16 times that without thermal viscosity. The limit is 201.
     ("the deepest and the stiffest", [1, 64, 1], [liquid(4096, 0)] * 64, DEEP, 0, [(4096, 0)] * 64, counted_when_deep),
+    # N = 3 by raw = 3728270, so two stages: reach 3, bits 2, and the limits are 4914 and 9830, which cut nothing. m = 3751708,
+    # a = 2211, c = 2025152, and k = (1977 x 24576 >> 16) x 43690 >> 14 = 1975. I_1 = 32767 and 22698: 303 are levelled, and
+    # W = -+909, D = -455 and 454. drop = 30208 - 909 = 29299, drive = 21974, R = D(1), and
+    # ((c drive >> 10) + 65536) / 2^17 = 332.06. One stage would let 155 flow.
+    ("two columns relax in two stages", [2, 1, 1], [liquid(4096, 20000), liquid(325, 9000)],
+     viscous(1, "substeps = 1, stages_max = 16"), 1, [(3764, 20000), (657, 14559)], (2, 4421, 0, 0)),
+    # kappa 2: N = 5, so three stages: reach 6, bits 3, times 10922, 32768 and 65536. m = 9416476 and 2070983, a = 3098 and
+    # 1300, c = 7122129 and 657294, k = 3474 and 319. I_1 = 16383, 13716 and 11583: 141 and 10, so that W = -423, 393, 30 and
+    # D = -212, 196, 15. I_2 = 48940, 41348 and 34767: 402 and 32, W = -2433, 2243, 190 and D = -1023, 943, 78. drop = 14034
+    # and 13665, drive = 10525 and 10248, and c drive / 2^27 = 558.50 and 50.19.
+    ("three in a row relax in three stages", [3, 1, 1], [liquid(4096, 20000), liquid(2100, 9000), liquid(500, 3000)],
+     viscous(2, "substeps = 1, stages_max = 3"), 0, [(3538, 20000), (2608, 11353), (550, 3545)], (3, 6696, 0, 0)),
+    # The same numbers of stages. The middle is higher by 2 than the left, and by 450 than the right: m = 14854940 and
+    # 7567587, a = 4088 and 2298, c = 14825926 and 4245682, k = 7237 and 2071. I_1 = 16361, 16383 and 11583: 2 and 151.
+    # D = 3, -230, 226. I_2 = 49091, 48922 and 34978: 18 of d = 169 come back, and 440 of 13944 flow on. W = -84, -2569, 2653
+    # and D = -25, -1087, 1110. The drops are -934 and 26603: drive = 700 and 19952, and 77.32 come back, 631.14 flow on.
+    ("a relaxed pair flows back", [3, 1, 1], [liquid(4080, 20000), liquid(4096, 9000), liquid(500, 3000)],
+     viscous(2, "substeps = 1, stages_max = 3"), 0, [(4003, 20000), (3542, 9239), (1131, 6347)], (3, 8676, 0, 0)),
+    # N = 14, but two stages at most. The left limit is 4369 x 3 >> 2 = 3276, and its mobility 1024 x 3276 = 3354624. Below,
+    # m = 7082894 is cut to 2048 x 3276 = 6709248: c is the same, k = 6551. I_1 = 43690 and 32767, and d = 10923 is cut to
+    # 10922: 1091 are levelled. D = -1637 and 1636, drop = 29495, drive = 22121, and c drive / 2^27 = 1105.8, cut to a
+    # fifth: 819. Above, the taker shows the limit of the run below: m = 2097152 + 3728270 is cut to 1024 (3276 x 43690 >> 16)
+    # = 1024 x 2183, a = 2048, c = 1117696, drop = 64 x 512, drive = 24576, and c drive / 2^27 + D(1) / 65536 = 205.2.
+    ("a taker on top of a run does not relax", [2, 2, 1], [liquid(4096, 20000), liquid(4096, 9000), liquid(4096, 20000), AIR],
+     viscous(1, "substeps = 1, stages_max = 2"), 0,
+     [(3277, 20000), (4915, 10832), (3891, 20000), (205, 20000)], (3, 12288, 2, 8192)),
+    # N = 14, but three stages at most; n = 2. The limits are 3276, 4914 and 4914, and cut two mobilities to 6709248 and
+    # 10063872. On the left m = 16773120 is cut to 4096 x 3276. Below a = 4096: c = 13418496 and 15619413, k = 2 x 6551 and
+    # 2 x 7623. Above a = 4000 and 2404: c = 13104000 and 9167253, k = 2 x 6397 and 2 x 4474. The heads less 512 (y - 2) are
+    # 2048, 2024, 1649 below, and 512 less above. Stage 2 levels 51 and 930 below, 49 and 546 above; stage 3 401, 2160, 281
+    # and 1424. D = -797, -5129, 5923 below and -592, -3148, 3737 above. drop = 5868, 12948, 4092 and 17115,
+    # drive = 4401, 9711, 3069 and 12836. Below R = D(1), above D(1) + D(1) - 65536 = 0: w = 440.5, 1130.6, 299.6 and 876.7.
+    # 1130 is cut to 819, a fifth of 4096, and 876 to 780, a fifth of 3904.
+    ("each layer relaxes by itself", [3, 2, 1],
+     [liquid(4096, 20000), liquid(4096, 9000), liquid(4096, 3000), liquid(4096, 20000), liquid(3904, 9000), liquid(904, 3000)],
+     viscous(1, "substeps = 1, stages_max = 3"), 1,
+     [(3656, 20000), (3717, 10302), (4915, 4000), (3797, 20000), (3423, 9961), (1684, 5779)], (6, 21192, 4, 16192)),
+    # Under a ceiling M = 81919 and 77919: both limits are 13107 / 20 = 655, then 491, and m = 2048 x 491 = 1005568. Below the
+    # top a = 4096: c = m, and k = 5 x 981 = 4905; I_1 differ by 10666 or 10667, and 798 are levelled. D = -1197 and 1197,
+    # drop = 32000 - 2394 = 29606, drive = 22204, and c drive / 2^27 = 166.35; D(1) and D(2) add 0.5 and 0.25, D(3) 0.75. In
+    # the top a = 127070 >> 1 = 63535, c = 15597842, and k = 5 x 15231 is cut to 65535: 10665 of 10666, so that
+    # D = -15998 and 15997, drop = 5, drive = 3 and w = 0.47.
+    ("a pair levels no more than its difference", [2, 5, 1],
+     [liquid(4096, 20000), liquid(4096, 9000)] * 4 + [liquid(65535, 20000), liquid(61535, 9000)],
+     viscous(1, "stiffness = 1, substeps = 1, stages_max = 2"), 0,
+     [(3930, 20000), (4262, 9428)] * 3 + [(3929, 20000), (4263, 9430), (65535, 20000), (61535, 9000)],
+     (10, 159838, 10, 159838)),
+    # N = 5 and K = 2, so that two stages do. The first sub-step is that of the first case, but R = 16384: w = 331.8, and the
+    # heat is 14550 with B = 0. Then m = 3149995 + 95630, c = 1751971, k = 1709, I_1 = 31871 and 23594: 215 are levelled.
+    # drop = 24187, drive = 18140, R = 49152 and w = 237.5.
+    ("two sub-steps of two stages", [2, 1, 1], [liquid(4096, 20000), liquid(325, 9000)],
+     viscous(2, 'substeps = "auto", substeps_max = 2, stages_max = 16'), 1, [(3528, 20000), (893, 15996)], (4, 8842, 0, 0)),
+    # m = 3728270 + 1000619, a = 3109, c = 3589383. The k of a diagonal has no quarter: (3505 x 16384 >> 16) x 43690 >> 14 =
+    # 2335. The heads less 512 (y - 2) are 1280 and 1033. I_1 = 27306 and 22036: 187 are levelled, D = -281 and 280, drop =
+    # 15247 and drive = 7623. R = D(1, 3, 4) + D(1) = 49152: ((c drive >> 10) + 8 R) / 2^19 = 51.7.
+    ("a diagonal relaxes", *DIAGONAL, viscous(1, "substeps = 1, stages_max = 2"), 1,
+     [(0, 0), (2173, 7540), (4045, 30000)], (2, 6218, 0, 0)),
+    # Nothing relaxes, and exposed alone counts: (2^21 x 2048 >> 12) x 24576 / 2^27 = 192 below. Above no bed shows:
+    # c = 2^21, w = 384 + D(1) / 65536, which fall on what came below.
+    ("a flank does not relax", [2, 2, 1], [liquid(4096, 7), AIR, liquid(4096, 7), AIR],
+     viscous(1, "substeps = 1, stages_max = 2"), 0, [(3904, 7), (576, 7), (3712, 7), (0, 0)]),
     # lack = 15000 and 10000: part = 2 x 15000 x 6711 >> 16 = 3072 and 2048, of 4000 and 3000: b + 2048 = 3000 and 1500.
     # Beds 375 and 187: t = 11 - 5 = 6, drop = 188, s = 12788 + 4 (12168 >> 3) = 18872, drive = 18872 x 188 >> 10 = 3464.
     # Both mobilities are 256 x 6553, so c = 3355136, and (3355136 x 3464 + 1024 D(1)) >> 26 = 173.

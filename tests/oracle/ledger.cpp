@@ -72,6 +72,8 @@ std::string counters_line(const Counters& counters) {
   return line("counters", {counters.cells, counters.mass, counters.limited_cells, counters.limited_mass});
 }
 
+std::string relaxed_line(const Relaxed& relaxed) { return line("relaxed", {relaxed.pairs, relaxed.back}); }
+
 Sum mass_held(const State& state) { return held_by(state).mass; }
 
 }  // namespace oracle

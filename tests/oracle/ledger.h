@@ -42,10 +42,16 @@ struct Counters {
   Sum cells = 0, mass = 0, limited_cells = 0, limited_mass = 0;
 };
 
+// Counts the pairs whose heads relaxed, and those of them that let liquid flow back (section 11).
+struct Relaxed {
+  Sum pairs = 0, back = 0;
+};
+
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
 std::string counters_line(const Counters& counters);
+std::string relaxed_line(const Relaxed& relaxed);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

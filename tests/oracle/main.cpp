@@ -16,7 +16,7 @@ void run_step(State& state) {
   const Heat& rules = state.parameters.heat;
   state.offset = dither(state.step);
   state.mixture_offset = state.offset;
-  if (!state.parameters.paper_law) state.substeps = substeps_of(state);
+  if (!state.parameters.paper_law) count_substeps(state);
   if (rules.enabled && rules.radiation && state.step % rules.visibility_every == 0) find_irradiance(state);
   source(state);
   heat(state);
@@ -104,7 +104,9 @@ void run(const Options& options) {
   if (options.every == 0 || options.steps > 0) print_line(state, options.steps);
   check_all(state, "at the end");
   close_ledgers(state);
-  if (options.ledger) std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << std::flush;
+  if (options.ledger)
+    std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << relaxed_line(state.relaxed)
+              << std::flush;
   if (!options.fields.empty()) {
     std::filesystem::create_directories(options.fields);
     write_fields(state, options.fields);

@@ -225,6 +225,7 @@ Parameters read_parameters(const std::string& path) {
     p.viscous.stiffness = integer(viscous, "stiffness", 1, 8);
     p.viscous.substeps = integer(viscous, "substeps", 0, 1024);
     p.viscous.substeps_max = integer(viscous, "substeps_max", 1, 1024);
+    p.viscous.stages_max = integer(viscous, "stages_max", 1, 16);
   }
   p.thermal_viscosity = yes(flow, "thermal_viscosity");
   if (p.thermal_viscosity && p.paper_law) {

@@ -75,6 +75,7 @@ struct ViscousFlow {
   Int mobility = 0, yield = 0, stiffness = 1;
   Int substeps = 1;  // 0: as many as the state needs, at most substeps_max
   Int substeps_max = 1;
+  Int stages_max = 1;
 };
 
 struct Parameters {

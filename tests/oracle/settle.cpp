@@ -1,4 +1,4 @@
-// Excess under the viscous law, and the number of sub-steps, follow docs/automaton.md section 10.
+// Excess under the viscous law, and the numbers of sub-steps and stages, follow docs/automaton.md section 10.
 #include "state.h"
 
 #include <string>
@@ -109,25 +109,30 @@ Int raw_mobility(const Parameters& parameters, const Unsettled& run, Int pace) {
   return (raw * factor.e) >> (12 - factor.n);
 }
 
-// Returns `limit` in 1/65536.
-Int limit_of(const Parameters& parameters, const Unsettled& run) {
-  const Int limit = 13107 / ((run.M >> 12) + 1);
-  return larger(1, run.over > 0 ? limit / parameters.viscous.stiffness : limit);
+// Returns `limit` in 1/2^(16 - bits).
+Int limit_of(const Parameters& parameters, const Unsettled& run, const Stages& stages) {
+  Int limit = 13107 / ((run.M >> 12) + 1);
+  if (run.over > 0) limit /= parameters.viscous.stiffness;
+  return larger(1, (limit * stages.reach) >> stages.bits);
 }
 
-// Returns what the cells of a run show, when a step has n sub-steps.
-Run shown_by_run(const Parameters& parameters, const Unsettled& run, Int n) {
+// Returns what the cells of a run show, `cells` of which are in the run after this settle.
+Run shown_by_run(const State& state, const Unsettled& run, Int cells) {
+  const Parameters& parameters = state.parameters;
   const ViscousFlow& viscous = parameters.viscous;
-  const Int raw = raw_mobility(parameters, run, (viscous.mobility + n / 2) / n);
-  const Int limit = limit_of(parameters, run);
+  const Int K = state.substeps;
+  const Int raw = raw_mobility(parameters, run, (viscous.mobility + K / 2) / K);
+  const Int limit = limit_of(parameters, run, state.stages);
+  const Int most = limit << (8 + state.stages.bits);
   const Int depth = larger(1, run.M >> 4);
   Run shown;
   shown.member = 1;
+  shown.cells = cells;
   shown.bed = run.bed;
   shown.head = run.bed + (run.M >> 3) + (viscous.stiffness - 1) * (run.over >> 3);
   shown.limit = limit;
-  shown.limited = raw > 256 * limit;
-  shown.mobility = smaller(raw, 256 * limit);
+  shown.limited = raw > most;
+  shown.mobility = smaller(raw, most);
   shown.exposed = smaller(raw, Int{1} << 21);
   shown.dead = larger(1, (2 * viscous.yield + depth / 2) / depth);
   return shown;
@@ -191,16 +196,15 @@ std::vector<Int> settled_amounts(const Unsettled& run) {
   return amounts;
 }
 
-void count(Counters& counters, const Run& shown, Int cells, Int M) {
-  counters.cells += cells;
+void count(Counters& counters, const Run& shown, Int M) {
+  counters.cells += shown.cells;
   counters.mass += M;
   if (!shown.limited) return;
-  counters.limited_cells += cells;
+  counters.limited_cells += shown.cells;
   counters.limited_mass += M;
 }
 
 void settle_run(State& state, const Unsettled& run) {
-  const Run shown = shown_by_run(state.parameters, run, state.substeps);
   const FaceFlows flows = face_flows(state, run);
   if (flows.keep_order)
     move_through_faces(state, run.cells, flows);
@@ -208,6 +212,9 @@ void settle_run(State& state, const Unsettled& run) {
     mix_all(state, run);
   const std::vector<Int> amounts = settled_amounts(run);
   Int held = 0;
+  for (const Int amount : amounts)
+    if (amount > 0) ++held;
+  const Run shown = shown_by_run(state, run, held);
   for (Int k = 0; k < static_cast<Int>(run.cells.size()); ++k) {
     Cell& cell = state.cells[run.cells[k]];
     if (flows.keep_order && cell.amount != amounts[k])
@@ -216,25 +223,42 @@ void settle_run(State& state, const Unsettled& run) {
                       std::to_string(amounts[k]));
     cell.amount = amounts[k];
     state.touch(run.cells[k]);
-    if (amounts[k] == 0) continue;
-    state.runs[run.cells[k]] = shown;
-    ++held;
+    if (amounts[k] > 0) state.runs[run.cells[k]] = shown;
   }
-  count(state.counters, shown, held, run.M);
+  count(state.counters, shown, run.M);
+}
+
+// Returns N, the most sub-steps that a run needs with one stage.
+Int needed_substeps(const State& state) {
+  const Parameters& parameters = state.parameters;
+  Int most = 1;
+  for_each_run(state, [&](const Unsettled& run) {
+    const Int raw = raw_mobility(parameters, run, parameters.viscous.mobility);
+    const Int unit = 256 * limit_of(parameters, run, Stages{});
+    most = larger(most, (raw + unit - 1) / unit);
+  });
+  return most;
+}
+
+// Returns the least stages whose reach is `wanted` or more, but at most `most` of them.
+Stages stages_for(Int wanted, Int most) {
+  Stages stages;
+  while (stages.S < most && stages.reach < wanted) {
+    ++stages.S;
+    stages.reach += stages.S;
+  }
+  while (stages.reach > Int{1} << stages.bits) ++stages.bits;
+  return stages;
 }
 
 }  // namespace
 
-Int substeps_of(const State& state) {
+void count_substeps(State& state) {
   const ViscousFlow& viscous = state.parameters.viscous;
-  if (viscous.substeps > 0) return viscous.substeps;
-  Int most = 1;
-  for_each_run(state, [&](const Unsettled& run) {
-    const Int raw = raw_mobility(state.parameters, run, viscous.mobility);
-    const Int unit = 256 * limit_of(state.parameters, run);
-    most = larger(most, (raw + unit - 1) / unit);
-  });
-  return smaller(most, viscous.substeps_max);
+  const Int N = needed_substeps(state);
+  const Int K = viscous.substeps > 0 ? viscous.substeps : smaller(N, viscous.substeps_max);
+  state.substeps = K;
+  state.stages = stages_for((N + K - 1) / K, viscous.stages_max);
 }
 
 void settle(State& state) {

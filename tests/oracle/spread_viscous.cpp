@@ -1,6 +1,7 @@
 // Spread under the viscous law follows docs/automaton.md section 11.
-#include "state.h"
+#include "pair.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace oracle {
@@ -63,44 +64,101 @@ Int amount_between(const Run& taker, Int t, Int A_i, Int A_j) {
   return level ? (A_i + A_j + 1) >> 1 : A_i;
 }
 
-// Lets the run cell i give in a direction. The pair is computed once, by its giver.
-void give(State& state, Int i, Place at, const Direction& direction) {
+// Returns m of a pair, as far as the giver's limit lets it.
+Int mobility_of_pair(const Stages& stages, const Run& giver, const Run& taker) {
+  const Int m = (taker.member == 1 ? giver.mobility : giver.exposed) + taker.mobility;
+  if (!taker.limit.has_value()) return m;
+  if (stages.S == 1) return smaller(m, 512 * *giver.limit);
+  if (taker.member == 1) return smaller(m, *giver.limit << (9 + stages.bits));
+  const Int limit = larger(1, (*giver.limit * scale_of(stages)) >> (14 + stages.bits));
+  return smaller(m, limit << (8 + stages.bits));
+}
+
+// Adds the pair of the run cell i and its neighbour in a direction, if i gives.
+void find_pair(const State& state, Int i, const Direction& direction, std::vector<Pair>& pairs) {
+  const Place at = state.place(i);
   if (!is_open(state, at, direction)) return;
   const Run& giver = state.runs[i];
   const Int x = at.x + direction.dx, z = at.z + direction.dz;
   const Int j = state.index(x, at.y, z);
   const Run taker = shown_by(state, x, at.y, z);
+  const Int drop = giver.head - taker.head;
   const Int threshold = direction.diagonal ? (11 * giver.dead) >> 3 : giver.dead;
-  const Int whole_drop = giver.head - taker.head;
-  if (whole_drop <= 0 || whole_drop <= threshold) return;
+  if (drop <= 0 || drop <= threshold) return;
 
-  const Int drop = smaller(whole_drop, direction.diagonal ? 724 : 512);
   const Int t = tilt(giver, taker);
-  const Int drive = (slope_of_pair(state, at, direction, t) * drop) >> 10;
-  const Int A_i = state.cells[i].amount, A_j = state.cells[j].amount;
-  Int m = (taker.member == 1 ? giver.mobility : giver.exposed) + taker.mobility;
-  if (taker.limit.has_value()) m = smaller(m, 512 * *giver.limit);
-  const Int c = smaller((Int{1} << 24) - 1, (m * amount_between(taker, t, A_i, A_j)) >> 12);
-  const Int R = rounding(state, direction.axis, at.y);
-  const Int w = direction.diagonal ? (c * drive + (R << 12)) >> 28 : (c * drive + (R << 10)) >> 26;
-  const Int room = larger(0, (taker.member == 1 ? AMAX : ONE) - A_j);
-  const Int fifth = scaled(smaller(A_i, room), 13107);
-  const Int f = smaller(w, direction.diagonal ? fifth >> 2 : fifth);
-  if (f == 0) return;
-  state.touch(j);
-  state.exchanges[i].given += f;
-  state.exchanges[j].taken += f;
-  state.exchanges[j].heat_taken += f * state.cells[i].heat;
+  const Int a = amount_between(taker, t, state.cells[i].amount, state.cells[j].amount);
+  const Int m = mobility_of_pair(state.stages, giver, taker);
+  Pair pair;
+  pair.i = i;
+  pair.j = j;
+  pair.direction = direction;
+  pair.between_runs = taker.member == 1;
+  pair.drop = drop;
+  pair.s = slope_of_pair(state, at, direction, t);
+  pair.c = smaller((Int{1} << (24 + state.stages.bits)) - 1, (m * a) >> 12);
+  pairs.push_back(pair);
+}
+
+// Returns w by the drop of the heads, with one stage.
+Int wanted_flow(const Pair& pair, Int R) {
+  const bool diagonal = pair.direction.diagonal;
+  const Int drive = (pair.s * smaller(pair.drop, diagonal ? 724 : 512)) >> 10;
+  return diagonal ? (pair.c * drive + (R << 12)) >> 28 : (pair.c * drive + (R << 10)) >> 26;
+}
+
+// Returns w by a relaxed drop, in 1/32768 cell.
+Int wanted_flow_relaxed(const Pair& pair, Int bits, Int whole_drop, Int R) {
+  const bool diagonal = pair.direction.diagonal;
+  const Int drop = smaller(whole_drop, diagonal ? 46336 : 32768);
+  const Int drive = (2 * pair.s * drop) >> 16;
+  const Int part = (pair.c * drive) >> (8 + bits);
+  return diagonal ? (part + (32 * R >> bits)) >> (21 - bits) : (part + (8 * R >> bits)) >> (19 - bits);
+}
+
+// Moves w, or as much of it as giver and receiver let, and returns what it moved.
+Int move(State& state, const Pair& pair, Int from, Int to, Int w) {
+  const Int A = state.cells[from].amount;
+  const Int room = larger(0, (pair.between_runs ? AMAX : ONE) - state.cells[to].amount);
+  const Int fifth = scaled(smaller(A, room), 13107);
+  const Int f = smaller(w, pair.direction.diagonal ? fifth >> 2 : fifth);
+  if (f == 0) return f;
+  state.touch(to);
+  state.exchanges[from].given += f;
+  state.exchanges[to].taken += f;
+  state.exchanges[to].heat_taken += f * state.cells[from].heat;
+  return f;
+}
+
+// Lets the pairs flow by the mean drops of their sub-step.
+void flow_relaxed(State& state, const std::vector<Pair>& pairs) {
+  const std::vector<Int> drops = relaxed_drops(state, pairs);
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Pair& pair = pairs[n];
+    const Int R = rounding(state, pair.direction.axis, state.place(pair.i).y);
+    const Int drop = pair.between_runs ? drops[n] : 64 * pair.drop;
+    const Int w = wanted_flow_relaxed(pair, state.stages.bits, larger(drop, -drop), R);
+    const Int back = drop < 0 ? move(state, pair, pair.j, pair.i, w) : 0;
+    if (drop > 0) move(state, pair, pair.i, pair.j, w);
+    if (pair.between_runs) ++state.relaxed.pairs;
+    if (back > 0) ++state.relaxed.back;
+  }
 }
 
 }  // namespace
 
 void spread_viscous(State& state) {
-  const std::vector<Int> before = state.list;  // the list grows as cells take
-  for (const Int i : before) {
+  std::vector<Pair> pairs;  // each once, found by its giver
+  for (const Int i : state.list) {
     if (state.runs[i].member == 0) continue;
-    const Place at = state.place(i);
-    for (const Direction& direction : DIRECTIONS) give(state, i, at, direction);
+    for (const Direction& direction : DIRECTIONS) find_pair(state, i, direction, pairs);
+  }
+  if (state.stages.S > 1) {
+    flow_relaxed(state, pairs);
+  } else {
+    for (const Pair& pair : pairs)
+      move(state, pair, pair.i, pair.j,
+           wanted_flow(pair, rounding(state, pair.direction.axis, state.place(pair.i).y)));
   }
   move_exchanged(state);
   finish_phase(state, "after spread");

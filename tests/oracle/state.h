@@ -31,12 +31,18 @@ struct Exchange {
 // Holds what a cell in a run shows its neighbours (section 10).
 struct Run {
   Int member = 0;  // 1: the cell is in a run
+  Int cells = 0;   // how many are in the run
   std::optional<Int> bed;
-  std::optional<Int> limit;  // in 1/65536
+  std::optional<Int> limit;  // in 1/2^(16 - bits)
   bool limited = false;      // raw is above it
   Int head = 0, dead = 0;
   Int mobility = 0;  // between runs, in 1/2^24
   Int exposed = 0;   // towards cells outside runs, in 1/2^24
+};
+
+// The stages of a sub-step (section 10).
+struct Stages {
+  Int S = 1, reach = 1, bits = 0;
 };
 
 struct Place {
@@ -48,7 +54,8 @@ struct State {
   Int step = 0;                   // s: the steps done, and the number of the step that runs
   Int offset = 0;                 // D(s)
   Int mixture_offset = 0;         // B
-  Int substep = 0, substeps = 1;  // k and n of section 3, under the viscous law
+  Int substep = 0, substeps = 1;  // u and K of section 3, under the viscous law
+  Stages stages;
   Parameters parameters;
   std::vector<Cell> cells;
   std::vector<Int> irradiance;  // section 5, kept between its steps
@@ -57,6 +64,7 @@ struct State {
   std::vector<Exchange> exchanges;
   Ledgers ledgers;
   Counters counters;
+  Relaxed relaxed;
 
   // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
@@ -126,7 +134,7 @@ void heat(State& state);                                // section 6
 void melt(State& state);                                // section 7
 void gravity(State& state);                             // section 8
 void spread_paper(State& state);                        // section 9
-Int substeps_of(const State& state);                    // sections 3 and 10
+void count_substeps(State& state);                      // sections 3 and 10: K and the stages
 Run shown_by(const State& state, Int x, Int y, Int z);  // section 10: by a cell that is not blocked
 void settle(State& state);                              // section 10
 void spread_viscous(State& state);                      // section 11
