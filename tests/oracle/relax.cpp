@@ -33,7 +33,8 @@ Int time_of(Int j, Int S) { return 65536 * (j * j + j) / (S * S + S); }
 Int levelling(const State& state, const Pair& pair) {
   const Stages& stages = state.stages;
   const Int n = smaller(state.runs[pair.i].cells, state.runs[pair.j].cells);
-  const Int one = ((((pair.c >> (8 + stages.bits)) * pair.s) >> 16) * scale_of(stages)) >> 14;
+  const Int one = ((((pair.c >> (8 + stages.bits)) * pair.s) >> 16) * scale_of(stages)) >>
+                  (pair.direction.diagonal ? 16 : 14);
   return smaller(65535, n * one);
 }
 
@@ -44,7 +45,7 @@ Layers find_layers(const State& state, const std::vector<Pair>& pairs) {
     if (number[cell] < 0) {
       number[cell] = static_cast<Int>(layers.levels.size());
       Level level;
-      level.head = state.runs[cell].head - 512 * (state.place(cell).y - 2);
+      level.head = smaller(Int{1} << 24, state.runs[cell].head - 512 * (state.place(cell).y - 2));
       layers.levels.push_back(level);
     }
     return static_cast<std::size_t>(number[cell]);

@@ -37,13 +37,13 @@ VOXMELT_RULE int stages_for(std::int64_t substeps, int most) {
   return relaxation.stages;
 }
 
-// Returns what a pair levels of its difference in one stage, in 1/65536. `conductance` is in 1/2^24, `slope`
-// in 1/16384, and both runs have `cells` cells or more.
+// Returns what a pair levels of its difference in one stage, in 1/65536. A diagonal levels a quarter.
+// `conductance` is in 1/2^24, `slope` in 1/16384, and both runs have `cells` cells or more.
 VOXMELT_RULE std::int32_t leveling(std::int64_t conductance, std::int32_t slope, std::int32_t cells,
-                                   Relaxation relaxation) {
+                                   bool diagonal, Relaxation relaxation) {
   const std::int64_t coarse = ((conductance >> (8 + relaxation.bits())) * slope) >> 16;
   return static_cast<std::int32_t>(
-      std::min<std::int64_t>(65535, cells * ((coarse * relaxation.scale()) >> 14)));
+      std::min<std::int64_t>(65535, cells * ((coarse * relaxation.scale()) >> (diagonal ? 16 : 14))));
 }
 
 // Returns the head that a cell has at the end of stage j, integrated over time, in 1/32768 cell. `head` is in

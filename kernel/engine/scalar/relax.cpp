@@ -41,7 +41,7 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
       return rule::leveling(
           rule::conductance(from, volume.amount[giver], there, volume.amount[taker], relaxation),
           rule::slope_factor(from.bed, there.bed, diagonal, walls), std::min(filled_[giver], filled_[taker]),
-          relaxation);
+          diagonal, relaxation);
     };
     leveling[d][i] = levels(i, j) + levels(j, i);  // at most one of them gives
   });

@@ -100,9 +100,10 @@ class RelaxLayer : ViscousPairs<Arch, true> {
     this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor);
     const V flow = L::high(p.conductance.coarse, factor), scale = L::set(step_.relaxed_scale);
     const V high = L::high(flow, scale);
-    const V cell =
-        saturated(L::less(L::set(0x3FFF), high),
-                  L::template shift_left<2>(high) | L::template shift_right<14>(L::low(flow, scale)));
+    V cell = high;
+    if constexpr (!kDiagonal)
+      cell = saturated(L::less(L::set(0x3FFF), high),
+                       L::template shift_left<2>(high) | L::template shift_right<14>(L::low(flow, scale)));
     const V cells = L::min(L::load(r_.filled + at), L::load_any(r_.filled + at + Base::to_other_[axis]));
     return L::keep(gate, saturated(L::less(L::zero(), L::high(cells, cell)), L::low(cells, cell)));
   }

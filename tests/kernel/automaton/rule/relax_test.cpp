@@ -42,11 +42,12 @@ TEST(Relaxation, TakesTheFewestStagesThatReach) {
 // 21845 / 4 = 5461, times 4 / 3 in halves 14562 / 65536 a cell.
 TEST(Relaxation, LevelsWhatAPairConducts) {
   const Relaxation two{2};
-  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 1, two), 14562);
-  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 4, two), 58248);
-  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 5, two), 65535);  // cut
-  EXPECT_EQ(leveling((1 << 26) / 3, 8192, 1, two), 7280);    // 21845 / 8 = 2730
-  EXPECT_EQ(leveling(1023, 16384, 1, two), 0);
+  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 1, false, two), 14562);
+  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 4, false, two), 58248);
+  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 5, false, two), 65535);  // cut
+  EXPECT_EQ(leveling((1 << 26) / 3, 8192, 1, false, two), 7280);    // 21845 / 8 = 2730
+  EXPECT_EQ(leveling((1 << 26) / 3, 16384, 1, true, two), 3640);    // a diagonal: a quarter
+  EXPECT_EQ(leveling(1023, 16384, 1, false, two), 0);
 }
 
 TEST(Relaxation, CountsADifferenceOfOneCellAtMost) {
