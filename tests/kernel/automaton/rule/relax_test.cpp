@@ -94,7 +94,7 @@ TEST(Relaxation, TwoColumnsKeepTheMeanOfTheirDrop) {
         cells[1].add(moved, 0, j + 1);
       }
       const double mean = (1 - std::exp(-2 * rate)) / (2 * rate);
-      const double found = (now[0] - now[1]) / (400.0 * (kRelaxedOne / 512));
+      const double found = (now[0] - now[1]) / (400.0 * 64);
       EXPECT_NEAR(found, mean, 0.06) << stages << " stages, rate " << rate;
       EXPECT_GT(found, 0);
     }
@@ -106,6 +106,7 @@ TEST(Relaxation, ARowKeepsItsSumAndItsRange) {
   for (const int stages : {2, 4, 7, 11, 16}) {
     const Relaxation r{stages};
     std::vector<std::int32_t> heads;
+    heads.reserve(40);
     std::uint32_t dice = 7;
     for (int i = 0; i < 40; ++i)
       heads.push_back(1024 + static_cast<int>((dice = dice * 1664525 + 1013904223) >> 23));
