@@ -22,8 +22,8 @@ struct Numbers {
 };
 Numbers numbers_of(const std::string& name) {
   if (name == "cello") return {0.1, 0, 0, 70, 0, 0.25, 0.96, 0.92, 0.01, 0.02};
-  if (name == "goblet") return {0.39, 0.0022, 0.05, 0, 0, 0.125, 0.96, 0.92, 0.01, 0.02};
-  if (name == "lava") return {0.02, 0.0015, 0, 0, 0.03, 1, 0.99, 0.99, 0.02, 0.01};
+  if (name == "goblet") return {0.39, 0.00222, 0.05, 0, 0, 0.125, 0.96, 0.92, 0.01, 0.02};
+  if (name == "lava") return {0.02, 0.0017, 0, 0, 0.03, 1, 0.99, 0.99, 0.02, 0.01};
   return {0.08, 0, 0, 80, 0, 0.25, 0.96, 0.92, 0.005, 0.02};
 }
 constexpr double kShare = 0.125, kMinimum = 1. / 128, kViscousWallFactor = 0.125;

@@ -66,9 +66,8 @@ void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>
   heat.air_exchange = to_factor16(exchange);
   const double taken = heat.air_exchange / 65536.0;
   if (std::abs(taken / exchange - 1) > 0.02)
-    warnings.push_back(
-        fmt::format("heat.air.exchange = {} is taken as {:.3g}, in whole numbers of 1/65536", given,
-                    half > 0 ? taken / std::max(1e-9, 1 - taken / half) : taken));
+    warnings.push_back(fmt::format("heat.air.exchange = {} is taken as {:.3g}, in whole numbers of 1/65536",
+                                   given, half > 0 ? taken / std::max(1e-9, 1 - taken / half) : taken));
   const double bottom = reader.number("bottom", fraction());
   const double top = reader.number("top", fraction(), bottom);
   for (int y = 0; y < ny; ++y)

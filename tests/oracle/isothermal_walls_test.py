@@ -55,7 +55,7 @@ def parameters(size, step=0, neighbours=6, walls=True):
                  "convection": 0, "walls": walls, "radiation": False, "air": False},
         "vents": [], "drains": [],
         "flow": {"law": "viscous", "fall": {"factor": 0, "wall_factor": 0, "minimum": 0, "hang": 0},
-                 "viscous": {"mobility": 0, "yield": 0, "stiffness": 1, "substeps": 1, "substeps_max": 1}, "thermal_viscosity": False}}
+                 "viscous": {"mobility": 0, "yield": 0, "stiffness": 1, "substeps": 1, "substeps_max": 1, "stages_max": 1}, "thermal_viscosity": False}}
 
 
 def run(oracle, folder, size, cells, changes):

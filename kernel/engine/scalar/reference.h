@@ -54,9 +54,9 @@ class Reference final : public step::HostStepper {
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run
   state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
   state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,
-      limit_;                                     // viscous law: see rule::Column
+      limit_;                                    // viscous law: see rule::Column
   state::Field<std::int32_t> filled_, relaxed_;  // viscous law: cells of the run; relaxed heads
-  Volume next_;  // the result of a phase while it is computed
+  Volume next_;                                  // the result of a phase while it is computed
 };
 
 void add_implementations(step::Registry& registry);  // the reference

@@ -114,9 +114,9 @@ TEST(Load, AnExchangeThatIsRoundedIsWarnedOf) {
   const auto scene = [&](const char* exchange) {
     return folder.load_text(kLeast + "[heat.air]\nexchange = " + exchange + "\nbottom = 1\n");
   };
-  EXPECT_EQ(
-      scene("2e-5").warnings,  // 1.31 of 65536
-      std::vector<std::string>{"heat.air.exchange = 2e-05 is taken as 1.53e-05, in whole numbers of 1/65536"});
+  EXPECT_EQ(scene("2e-5").warnings,  // 1.31 of 65536
+            std::vector<std::string>{
+                "heat.air.exchange = 2e-05 is taken as 1.53e-05, in whole numbers of 1/65536"});
   EXPECT_TRUE(scene("0.001").warnings.empty());  // 65.5
 }
 
