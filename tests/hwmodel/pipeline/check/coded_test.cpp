@@ -166,7 +166,7 @@ TEST(CodeLong, CropsOfScenes) { crop_of_scene("bunny_viscous", 896); }
 TEST(Code, ADramGivesTheBurstsThatAreCounted) {
   const memory::Parameters sheet = load_memory("ddr4-2400", "test");
   int fed = 0;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
     worlds::Random random(seed + 55);
     const state::Grid grid{random.between(1, 40), random.any({1, 3, 40}), random.between(3, 30)};
     const Start start =
