@@ -38,6 +38,14 @@ VOXMELT_RULE std::int32_t settled_cells(std::int64_t mass, std::int32_t n) {
   return static_cast<std::int32_t>(std::min<std::int64_t>(n, (mass + kOne - 1) / kOne));
 }
 
+// Tells if a run is shut: it is under a ceiling and full, but for 1/64 of a cell. Shut runs give each other
+// nothing. For no column says what another one's ceiling carries, and heads alone would squeeze the liquid of
+// a vault out of its top.
+VOXMELT_RULE bool is_shut(std::int64_t mass, std::int32_t n, bool under_ceiling) {
+  const std::int64_t excess = mass - std::int64_t{n} * kOne;
+  return under_ceiling && -kOne / 64 <= excess && excess <= kOne / 64;
+}
+
 // Heat moves through the faces of a run when it settles. The excess at the face above cell k is what cells
 // 0..k hold beyond ONE each, before settling. Up to kMostExcess, no cell holds more than kAmountMax while the
 // parts move.

@@ -17,13 +17,14 @@ class RunMemory {
  public:
   // The heads of a scene that relaxes need more.
   RunMemory(state::Grid grid, bool relaxes)
-      : planes_{state::BitPlane(grid), state::BitPlane(grid)},
+      : planes_{state::BitPlane(grid), state::BitPlane(grid), state::BitPlane(grid)},
         deep_(static_cast<std::size_t>(grid.y) * grid.z),
         limits_((static_cast<std::size_t>(grid.x) + 63) / 64 * grid.z) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(), fields_[4].data(),
-             fields_[5].data(), fields_[6].data(), fields_[7].data(), nullptr,           nullptr,
-             nullptr,           planes_[0].data(), planes_[1].data(), deep_.data(),      limits_.data()};
+    runs_ = {fields_[0].data(), fields_[1].data(), fields_[2].data(), fields_[3].data(),
+             fields_[4].data(), fields_[5].data(), fields_[6].data(), fields_[7].data(),
+             nullptr,           nullptr,           nullptr,           planes_[0].data(),
+             planes_[1].data(), planes_[2].data(), deep_.data(),      limits_.data()};
     if (!relaxes) return;
     for (auto& field : relaxed_) field = state::Field<std::uint16_t>(grid);
     runs_.filled = relaxed_[0].data();
@@ -35,7 +36,7 @@ class RunMemory {
  private:
   std::array<state::Field<std::uint16_t>, 8> fields_;
   std::array<state::Field<std::uint16_t>, 3> relaxed_;
-  std::array<state::BitPlane, 2> planes_;
+  std::array<state::BitPlane, 3> planes_;
   std::vector<simd::TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;
   simd::Runs runs_;

@@ -102,6 +102,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
         rule::run_column(run.mass, run.n, rule::bed_head(bottom, cells.bed(x, bottom - 1, z, solid_bed_)),
                          mean, parameters_.flow, moment.substeps, {moment.stages});
     const std::int32_t held = rule::settled_cells(run.mass, run.n);
+    const bool shut = rule::is_shut(run.mass, run.n, cells.blocked(x, bottom + run.n, z));
     for (std::int32_t k = 0; k < run.n; ++k) {
       const state::Slot i = run.at(k);
       const std::int32_t amount = rule::settled(run.mass, run.n, k);
@@ -110,6 +111,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
       if (amount == 0) volume.heat[i] = 0;
       if (amount == 0) continue;  // emptied: above the surface, no part of the run any more
       in_run_[i] = 1;
+      shut_[i] = shut;
       head_[i] = column.head;
       mobility_[i] = column.mobility;
       exposed_[i] = column.exposed;
@@ -124,6 +126,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
   };
 
   in_run_.clear();
+  shut_.clear();
   for (int z = 0; z < volume.grid.z; ++z) {
     const ActiveRows::Interval row = columns(0, z);
     for (int x = row.begin; x < row.end; ++x)

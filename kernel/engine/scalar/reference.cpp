@@ -11,6 +11,7 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     melted_ = decltype(melted_)(grid);
   } else {
     in_run_ = decltype(in_run_)(grid);
+    shut_ = decltype(shut_)(grid);
     head_ = decltype(head_)(grid);
     mobility_ = decltype(mobility_)(grid);
     exposed_ = decltype(exposed_)(grid);

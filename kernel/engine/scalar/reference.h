@@ -52,7 +52,8 @@ class Reference final : public step::HostStepper {
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run
-  state::Field<std::uint8_t> in_run_;   // viscous law: bit 0, the cell belongs to a run
+  // viscous law: the cell belongs to a run; and to one that is shut
+  state::Field<std::uint8_t> in_run_, shut_;
   state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,
       limit_;                                    // viscous law: see rule::Column
   state::Field<std::int32_t> filled_, relaxed_;  // viscous law: cells of the run; relaxed heads

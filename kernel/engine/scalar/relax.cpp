@@ -27,7 +27,7 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
         const rule::Direction to = rule::kDirections[d];
         if (!is_open(cells, x, y, z, to)) continue;
         const state::Slot j = cells.at(x + to.dx, y, z + to.dz);
-        if (in_run_[j]) visit(x, y, z, i, j, static_cast<std::size_t>(d));
+        if (in_run_[j] && !(shut_[i] && shut_[j])) visit(x, y, z, i, j, static_cast<std::size_t>(d));
       }
     });
   };

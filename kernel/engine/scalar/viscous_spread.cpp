@@ -52,6 +52,7 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
       if (!is_open(cells, x, y, z, to)) continue;
       const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
+      if (shut_[i] && shut_[j]) continue;
       const rule::Column there = column(nx, y, nz);
       const std::int32_t offset =
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);

@@ -133,6 +133,7 @@ struct Runs {
   // cell, written by `relax` alone.
   std::uint16_t *filled = nullptr, *relaxed_low = nullptr, *relaxed_high = nullptr;
   std::uint64_t *in_run = nullptr, *shown = nullptr;   // shown: cells that are not all zero
+  std::uint64_t* shut = nullptr;                       // cells of full runs under a ceiling
   TileRow* deep = nullptr;                             // [z][y]: words in which a head is cut
   state::LimitCounts<std::int64_t>* limits = nullptr;  // [z][word]: counts of its columns
 };

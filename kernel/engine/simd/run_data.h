@@ -21,6 +21,7 @@ struct alignas(64) EndedRuns {
   std::uint16_t content[4][64];  // sums of the low and of the high halves of amount x heat, 32-bit each
   std::uint64_t columns;         // columns that have a run here
   std::uint64_t ordered;         // columns whose run keeps its order
+  std::uint64_t roofed;          // columns whose run is under a ceiling
   int top;                       // greatest of `last`
 };
 static_assert(sizeof(EndedRuns) == kSettleRecord && offsetof(EndedRuns, columns) % 64 == 0);
@@ -34,6 +35,7 @@ struct alignas(64) SettledRuns {
   std::uint16_t heat[64];                                        // heat of runs that do not keep their order
   std::uint16_t fine[64], limit[64], shown_bed[64], filled[64];  // as in Runs
   std::uint64_t ordered;  // after the arrays, so that vectors may be aligned
+  std::uint64_t shut;     // columns whose run is full, under a ceiling
 };
 static_assert(offsetof(SettledRuns, ordered) % 64 == 0);
 
@@ -59,6 +61,8 @@ class RunData {
     for (int part = 0; part < L::kParts; ++part)
       if (L::in_part(runs.columns, part)) rounded += settle(part, runs, settled, limits);
     settled.ordered = (settled.ordered & ~runs.columns) | runs.ordered;
+    settled.shut = settled.shut & ~runs.columns;
+    if (runs.roofed != 0) settled.shut |= runs.roofed & full(runs);
     return rounded;
   }
 
@@ -100,6 +104,22 @@ class RunData {
     keep(now.filled, settled.filled);
     if constexpr (kHot) keep(now.heat, settled.heat);
     return rounded;
+  }
+
+  // Returns the columns whose run is full, but for 1/64 of a cell.
+  [[gnu::always_inline]] static std::uint64_t full(const EndedRuns& runs) {
+    std::uint64_t columns = 0;
+    for (int part = 0; part < L::kParts; ++part) {
+      if (!L::in_part(runs.roofed, part)) continue;
+      const auto at = [&](const Lanes16& field) VOXMELT_LAMBDA { return L::load(field + part * L::kCount); };
+      // -64..64 has no other upper half than 0 or -1.
+      const auto up = at(runs.excess_high), low = at(runs.excess_low);
+      const auto above = L::less(low, L::set(65)), below = L::less(L::set(0xFFFF - 64), low);
+      const std::uint64_t over = L::to_bits(L::equal(up, L::zero())) & L::to_bits(above);
+      const std::uint64_t under = L::to_bits(L::equal(up, L::set(0xFFFF))) & L::to_bits(below);
+      columns |= (over | under) << (part * L::kCount);
+    }
+    return columns;
   }
 
   [[gnu::always_inline]] static void fill(int begin, const Lanes32& mass, const Lanes32& over,

@@ -138,7 +138,7 @@ class Settle {
           begin(sums[g], g, start, w, y);
         }
         goes_on[g] = take(sums[g], g, taken, w, y, changed);
-        if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], y);
+        if ((taken & ~goes_on[g]) != 0) keep(sums[g], g, taken & ~goes_on[g], w, y);
       }
     if constexpr (kFeatures.hot)
       for (RunOrder<Arch>& order : orders_) books_.heat.rounded += order.flush();
@@ -200,14 +200,15 @@ class Settle {
   // Keeps the sums of ended runs. Runs of different columns share a record until one of its columns begins
   // another run. So on the way down a record is wanted at its top, when all runs of later records have been
   // written.
-  [[gnu::always_inline]] void keep(const Sums& sums, int g, std::uint64_t ended, int y) {
+  [[gnu::always_inline]] void keep(const Sums& sums, int g, std::uint64_t ended, int w, int y) {
     if (!open_[g]) {
       open_[g] = true;
       EndedRuns& fresh = record(g, used_[g]++);
-      fresh.columns = fresh.ordered = 0;
+      fresh.columns = fresh.ordered = fresh.roofed = 0;
     }
     EndedRuns& to = record(g, used_[g] - 1);
     to.columns |= ended;
+    to.roofed |= ended & v_.blocked(w, y + 1, z_);
     to.top = y;
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(ended, part)) continue;
@@ -262,8 +263,10 @@ class Settle {
             in_run |= vectors(w, y, part, taken, g, deep, differs) << (part * L::kCount);
         v_.liquid[word] = (v_.liquid[word] & ~taken) | in_run;
       }
-      if (r_.in_run[word] != in_run) {
+      const std::uint64_t shut = in_run & settled_[g].shut;
+      if (r_.in_run[word] != in_run || r_.shut[word] != shut) {
         r_.in_run[word] = in_run;
+        r_.shut[word] = shut;
         differs = true;
       }
       if (differs) changed |= TileRow{1} << g;

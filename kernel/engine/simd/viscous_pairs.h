@@ -40,7 +40,7 @@ class ViscousPairs {
 
   struct Masks {
     std::uint64_t in_run, there[4];  // this cell, the other one of a pair
-    std::uint64_t pair[4], any;      // open, and one of them is in a run
+    std::uint64_t pair[4], any;      // open, one of them is in a run, and not both in shut ones
     std::uint64_t beside[2][4];      // blocked cells beside the axis pairs
     bool walls;                      // any of them beside a pair
   };
@@ -52,6 +52,9 @@ class ViscousPairs {
   }
   [[gnu::always_inline]] std::uint64_t in_run(int w, int y, int z) const {
     return w < 0 || w >= v_.words || z >= v_.nz ? 0 : r_.in_run[v_.word(w, y, z)];
+  }
+  [[gnu::always_inline]] std::uint64_t shut(int w, int y, int z) const {
+    return w < 0 || w >= v_.words || z >= v_.nz ? 0 : r_.shut[v_.word(w, y, z)];
   }
 
   [[gnu::always_inline]] bool find_pairs(int w, int y, Masks& m) const {
@@ -73,7 +76,15 @@ class ViscousPairs {
     m.pair[2] = ~(own | front_right | (right & front));
     m.pair[3] = ~(own | front_left | (left & front));
     m.any = 0;
-    for (int axis = 0; axis < 4; ++axis) m.any |= m.pair[axis] &= m.in_run | m.there[axis];
+    for (int axis = 0; axis < 4; ++axis) m.pair[axis] &= m.in_run | m.there[axis];
+    if (const std::uint64_t own_shut = shut(w, y, z_); own_shut != 0) {
+      const std::uint64_t front_shut = shut(w, y, z_ + 1);
+      m.pair[0] &= ~(own_shut & cpu::from_right(own_shut, shut(w + 1, y, z_)));
+      m.pair[1] &= ~(own_shut & front_shut);
+      m.pair[2] &= ~(own_shut & cpu::from_right(front_shut, shut(w + 1, y, z_ + 1)));
+      m.pair[3] &= ~(own_shut & cpu::from_left(front_shut, shut(w - 1, y, z_ + 1)));
+    }
+    for (const std::uint64_t pairs : m.pair) m.any |= pairs;
     if (m.any == 0) return false;
 
     // The axis pairs carry the share of diagonals to blocked cells.
