@@ -132,8 +132,8 @@ struct Runs {
   // These are null in scenes whose heads never relax: the cells of the run, and the relaxed head in 1/32768
   // cell, written by `relax` alone.
   std::uint16_t *filled = nullptr, *relaxed_low = nullptr, *relaxed_high = nullptr;
-  std::uint64_t *in_run = nullptr, *shown = nullptr;   // shown: cells that are not all zero
-  std::uint64_t* shut = nullptr;                       // cells of full runs under a ceiling
+  std::uint64_t *in_run = nullptr, *shut = nullptr;    // shut: cells of full runs under a ceiling
+  std::uint64_t* shown = nullptr;                      // cells that are not all zero
   TileRow* deep = nullptr;                             // [z][y]: words in which a head is cut
   state::LimitCounts<std::int64_t>* limits = nullptr;  // [z][word]: counts of its columns
 };

@@ -14,6 +14,14 @@
 namespace voxmelt::rule {
 namespace {
 
+TEST(Shut, FullUnderACeilingButForASixtyFourth) {
+  for (const std::int64_t excess : {-64, 0, 64}) {
+    EXPECT_TRUE(is_shut(5 * kOne + excess, 5, true));
+    EXPECT_FALSE(is_shut(5 * kOne + excess, 5, false));
+  }
+  for (const std::int64_t excess : {-4096, -65, 65, 4096}) EXPECT_FALSE(is_shut(5 * kOne + excess, 5, true));
+}
+
 TEST(Settled, KeepsTheSumAndTheBounds) {
   std::mt19937_64 random(11);
   for (int trial = 0; trial < 20000; ++trial) {

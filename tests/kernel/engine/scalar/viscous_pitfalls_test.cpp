@@ -52,6 +52,43 @@ TEST(Film, ComesToRestWithYield) {
   EXPECT_GT(spread.radius, 6.5);
 }
 
+// Heads alone squeezed a ball of liquid in a mould: its middle emptied, and its rim held up to 1.7.
+TEST(Vault, WhatFillsItStaysInIt) {
+  Volume v(Grid{12, 12, 12});
+  for_each({0, 0, 0, 12, 12, 12}, [&](int x, int y, int z) {
+    const double dx = x - 5.5, dy = y - 5.5, dz = z - 5.5;
+    if (dx * dx + dy * dy + dz * dz < 25)
+      put(v, x, y, z, kOne);
+    else
+      fill_inert(v, {x, y, z, x + 1, y + 1, z + 1});
+  });
+  run::Simulation s = simulate(viscous(0.2), v);
+  steps(s, 20);
+  EXPECT_EQ(s.volume().amount, v.amount);
+}
+
+// A chamber is three columns wide, and the middle one is two cells higher, so its head is. It gives only if
+// it is not shut, or its neighbour is not.
+TEST(Vault, ColumnsGiveUnlessBothAreShut) {
+  const auto top_after_a_step = [](int middle, int side) {
+    Volume v(Grid{5, 6, 3});
+    fill_inert(v, {0, 0, 0, 5, 6, 3});
+    for (int x = 1; x <= 3; ++x)
+      for (int y = 1; y <= (x == 2 ? 4 : 2); ++y) {
+        v.inert.set(x, y, 1, false);
+        const int top = x == 2 ? 4 : 2;
+        put(v, x, y, 1, kOne + (y == top ? (x == 2 ? middle : side) : 0));
+      }
+    run::Simulation s = simulate(viscous(0.2), v);
+    s.step();
+    return s.volume().amount[v.at(1, 2, 1)] - kOne - side;
+  };
+  EXPECT_EQ(top_after_a_step(0, 0), 0);
+  EXPECT_EQ(top_after_a_step(64, -64), 0);
+  EXPECT_GT(top_after_a_step(65, 0), 0);
+  EXPECT_GT(top_after_a_step(0, -65), 0);
+}
+
 // This is the dead zone: heads that differ by one unit do not flow, so a level pool has exactly no flow.
 TEST(Pool, LevelToOneHeadUnitDoesNotMove) {
   for (const int depth : {1, 2, 5})

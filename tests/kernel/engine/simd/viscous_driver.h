@@ -35,7 +35,7 @@ class ViscousDriver {
         kernels_(kernels(way.set, parameters)),
         way_(way),
         rest_(parameters, grid),
-        planes_{state::BitPlane(grid), state::BitPlane(grid)},
+        planes_{state::BitPlane(grid), state::BitPlane(grid), state::BitPlane(grid)},
         deep_(static_cast<std::size_t>(grid.y * grid.z)),
         limits_(static_cast<std::size_t>((grid.x + 63) / 64 * grid.z)),
         rows_(((grid.y - 1) >> way.tile_shift) + 1),
@@ -45,9 +45,10 @@ class ViscousDriver {
         restless_(tiles(grid, 0)) {
     for (auto& field : fields_) field = state::Field<std::uint16_t>(grid);
     for (auto& field : relaxed_) field = state::Field<std::uint16_t>(grid);
-    runs_ = {fields_[0].data(),  fields_[1].data(), fields_[2].data(), fields_[3].data(),  fields_[4].data(),
-             fields_[5].data(),  fields_[6].data(), fields_[7].data(), relaxed_[0].data(), relaxed_[1].data(),
-             relaxed_[2].data(), planes_[0].data(), planes_[1].data(), deep_.data(),       limits_.data()};
+    runs_ = {fields_[0].data(),  fields_[1].data(),  fields_[2].data(),  fields_[3].data(),
+             fields_[4].data(),  fields_[5].data(),  fields_[6].data(),  fields_[7].data(),
+             relaxed_[0].data(), relaxed_[1].data(), relaxed_[2].data(), planes_[0].data(),
+             planes_[1].data(),  planes_[2].data(),  deep_.data(),       limits_.data()};
     for (SliceCurrents& c : currents_) {
       for (auto& field : c.fields) field = state::Field<std::uint16_t>(state::Grid{grid.x, grid.y, 1});
       c.giving.assign(static_cast<std::size_t>(grid.y), 0);
@@ -231,7 +232,7 @@ class ViscousDriver {
   std::array<state::Field<std::uint16_t>, 8> fields_;
   std::array<state::Field<std::uint16_t>, 3> relaxed_;
   std::optional<parallel::LayerMemory> layer_;
-  std::array<state::BitPlane, 2> planes_;
+  std::array<state::BitPlane, 3> planes_;
   std::vector<TileRow> deep_;
   std::vector<state::LimitCounts<std::int64_t>> limits_;
   state::LimitCounts<std::int64_t> limit_;
