@@ -6,7 +6,7 @@
 
 namespace oracle {
 
-// Holds a pair whose giver i has a head that is higher by more than z.
+// Holds a pair whose giver i has a head that is higher by more than z. Not both of its cells are shut.
 struct Pair {
   Int i = 0, j = 0;
   Direction direction{};      // from i to j

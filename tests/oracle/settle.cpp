@@ -52,6 +52,7 @@ struct Unsettled {
   Int bed = 0;
   Int M = 0;
   Int over = 0;
+  bool shut = false;
   Sum products = 0;  // sum of a h
 
   Int mean_heat() const { return static_cast<Int>(products / M); }
@@ -67,7 +68,9 @@ Unsettled find_run(const State& state, Int x, Int y0, Int z) {
     run.M += state.cells[i].amount;
     run.products += state.cells[i].amount * state.cells[i].heat;
   }
-  run.over = larger(0, run.M - n * ONE);
+  const Int excess = run.M - n * ONE;
+  run.over = larger(0, excess);
+  run.shut = state.blocked(x, y0 + n, z) && larger(excess, -excess) <= ONE / 64;
   return run;
 }
 
@@ -128,6 +131,7 @@ Run shown_by_run(const State& state, const Unsettled& run, Int cells) {
   Run shown;
   shown.member = 1;
   shown.cells = cells;
+  shown.shut = run.shut;
   shown.bed = run.bed;
   shown.head = run.bed + (run.M >> 3) + (viscous.stiffness - 1) * (run.over >> 3);
   shown.limit = limit;
@@ -267,7 +271,7 @@ void settle(State& state) {
   finish_phase(state, "after excess");
 }
 
-// Outside runs `exposed` and `dead` are not used: only a cell in a run gives.
+// Outside runs `exposed` and `dead` are not used: only a cell in a run gives. And no cell there is shut.
 Run shown_by(const State& state, Int x, Int y, Int z) {
   const Run& own = state.runs[state.index(x, y, z)];
   if (own.member == 1) return own;

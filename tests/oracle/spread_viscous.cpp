@@ -74,7 +74,7 @@ Int mobility_of_pair(const Stages& stages, const Run& giver, const Run& taker) {
   return smaller(m, limit << (8 + stages.bits));
 }
 
-// Adds the pair of the run cell i and its neighbour in a direction, if i gives.
+// Adds the pair of the run cell i and its neighbour in a direction, if i gives and not both are shut.
 void find_pair(const State& state, Int i, const Direction& direction, std::vector<Pair>& pairs) {
   const Place at = state.place(i);
   if (!is_open(state, at, direction)) return;
@@ -82,6 +82,7 @@ void find_pair(const State& state, Int i, const Direction& direction, std::vecto
   const Int x = at.x + direction.dx, z = at.z + direction.dz;
   const Int j = state.index(x, at.y, z);
   const Run taker = shown_by(state, x, at.y, z);
+  if (giver.shut && taker.shut) return;
   const Int drop = giver.head - taker.head;
   const Int threshold = direction.diagonal ? (11 * giver.dead) >> 3 : giver.dead;
   if (drop <= 0 || drop <= threshold) return;

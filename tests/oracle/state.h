@@ -30,8 +30,9 @@ struct Exchange {
 
 // Holds what a cell in a run shows its neighbours (section 10).
 struct Run {
-  Int member = 0;  // 1: the cell is in a run
-  Int cells = 0;   // how many are in the run
+  Int member = 0;     // 1: the cell is in a run
+  Int cells = 0;      // how many are in the run
+  bool shut = false;  // the run is full, and has a ceiling
   std::optional<Int> bed;
   std::optional<Int> limit;  // in 1/2^(16 - bits)
   bool limited = false;      // raw is above it
