@@ -72,7 +72,9 @@ std::string counters_line(const Counters& counters) {
   return line("counters", {counters.cells, counters.mass, counters.limited_cells, counters.limited_mass});
 }
 
-std::string relaxed_line(const Relaxed& relaxed) { return line("relaxed", {relaxed.pairs, relaxed.back}); }
+std::string pairs_line(const PairCounts& counts) {
+  return line("pairs", {counts.relaxed, counts.back, counts.shut});
+}
 
 Sum mass_held(const State& state) { return held_by(state).mass; }
 

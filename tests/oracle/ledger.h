@@ -42,16 +42,17 @@ struct Counters {
   Sum cells = 0, mass = 0, limited_cells = 0, limited_mass = 0;
 };
 
-// Counts the pairs whose heads relaxed, and those of them that let liquid flow back (section 11).
-struct Relaxed {
-  Sum pairs = 0, back = 0;
+// Counts the pairs whose heads relaxed, those of them that let liquid flow back, and pairs that would give if
+// they were not shut (section 11).
+struct PairCounts {
+  Sum relaxed = 0, back = 0, shut = 0;
 };
 
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
 std::string counters_line(const Counters& counters);
-std::string relaxed_line(const Relaxed& relaxed);
+std::string pairs_line(const PairCounts& counts);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

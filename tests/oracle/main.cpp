@@ -105,7 +105,7 @@ void run(const Options& options) {
   check_all(state, "at the end");
   close_ledgers(state);
   if (options.ledger)
-    std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << relaxed_line(state.relaxed)
+    std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << pairs_line(state.pair_counts)
               << std::flush;
   if (!options.fields.empty()) {
     std::filesystem::create_directories(options.fields);

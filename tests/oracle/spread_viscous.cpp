@@ -75,17 +75,20 @@ Int mobility_of_pair(const Stages& stages, const Run& giver, const Run& taker) {
 }
 
 // Adds the pair of the run cell i and its neighbour in a direction, if i gives and not both are shut.
-void find_pair(const State& state, Int i, const Direction& direction, std::vector<Pair>& pairs) {
+void find_pair(State& state, Int i, const Direction& direction, std::vector<Pair>& pairs) {
   const Place at = state.place(i);
   if (!is_open(state, at, direction)) return;
   const Run& giver = state.runs[i];
   const Int x = at.x + direction.dx, z = at.z + direction.dz;
   const Int j = state.index(x, at.y, z);
   const Run taker = shown_by(state, x, at.y, z);
-  if (giver.shut && taker.shut) return;
   const Int drop = giver.head - taker.head;
   const Int threshold = direction.diagonal ? (11 * giver.dead) >> 3 : giver.dead;
   if (drop <= 0 || drop <= threshold) return;
+  if (giver.shut && taker.shut) {
+    ++state.pair_counts.shut;
+    return;
+  }
 
   const Int t = tilt(giver, taker);
   const Int a = amount_between(taker, t, state.cells[i].amount, state.cells[j].amount);
@@ -141,8 +144,8 @@ void flow_relaxed(State& state, const std::vector<Pair>& pairs) {
     const Int w = wanted_flow_relaxed(pair, state.stages.bits, larger(drop, -drop), R);
     const Int back = drop < 0 ? move(state, pair, pair.j, pair.i, w) : 0;
     if (drop > 0) move(state, pair, pair.i, pair.j, w);
-    if (pair.between_runs) ++state.relaxed.pairs;
-    if (back > 0) ++state.relaxed.back;
+    if (pair.between_runs) ++state.pair_counts.relaxed;
+    if (back > 0) ++state.pair_counts.back;
   }
 }
 

@@ -65,7 +65,7 @@ struct State {
   std::vector<Exchange> exchanges;
   Ledgers ledgers;
   Counters counters;
-  Relaxed relaxed;
+  PairCounts pair_counts;
 
   // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
