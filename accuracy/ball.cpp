@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +21,7 @@ namespace voxmelt::accuracy {
 namespace {
 
 constexpr double kRadii[] = {12, 20};
-constexpr double kParts[] = {0.25, 0.5, 0.75, 0.9}, kNever = 2;
+constexpr double kParts[] = {0.25, 0.5, 0.75, 0.9};
 
 int side_of(double radius) { return static_cast<int>(2 * radius) + 4; }
 
@@ -62,9 +61,9 @@ double unmelted(const Trial& trial) {
   return sum;
 }
 
-// Runs until each part has melted. Gives the steps over the exact ones, with a gate from some part on.
+// Runs until each part has melted. Gives the steps over the exact ones.
 void follow(Outcome& outcome, Chart& chart, Trial& trial, const std::string& setting,
-            const std::function<double(double)>& exact, double gated_from) {
+            const std::function<double(double)>& exact) {
   const double all = unmelted(trial);
   Curve curve{.name = setting};
   double before = 0, now = 0;
@@ -80,7 +79,7 @@ void follow(Outcome& outcome, Chart& chart, Trial& trial, const std::string& set
                             .quantity = "steps over exact",
                             .value = steps / wanted,
                             .exact = 1,
-                            .gate = part < gated_from ? std::nullopt : std::optional(0.1),
+                            .gate = 0.02,
                             .note = now < part ? "not in three times the exact steps" : "",
                             .speed = trial.speed()});
     curve.points.push_back({100 * part, steps / wanted});
@@ -90,10 +89,12 @@ void follow(Outcome& outcome, Chart& chart, Trial& trial, const std::string& set
 
 }  // namespace
 
-// The wall's temperature is that of the centres of its cells, half a cell beyond the ball. Under the paper's
-// law what has melted stays where it is. While the melt is a layer of one or two cells, their grain shows.
+// The wall's temperature is that of the centres of its cells. Behind a face along axis i of a plane with the
+// normal n they lie up to |n_i| beyond it, and there are |n_i| such faces on each unit of area. So their mean
+// distance is (sum n_i^2 / 2) / sum |n_i|. Over a sphere that is (1/2) / (3/2). What has melted stays where
+// it is, under both laws.
 Outcome measure_ball_in_mould(const Conditions& conditions) {
-  constexpr double kGamma = 0.3, kHalf = 0.5, kMelting = 0.02, kLatent = 0.4, kWall = 0.42;
+  constexpr double kGamma = 0.3, kBeyond = 1. / 3, kMelting = 0.02, kLatent = 0.4, kWall = 0.42;
   Outcome outcome;
   Chart chart = chart_of("Time that a ball in a mould takes, over exact");
   for (const std::string law : {"paper", "viscous"})
@@ -107,10 +108,9 @@ Outcome measure_ball_in_mould(const Conditions& conditions) {
       Trial trial(conditions, "mould", sets, [&](state::Volume& v) {
         equal = put_ball(v, radius, kMelting * kHottest, (kWall + kLatent) * kHottest);
       });
-      const MouldedBall ball{equal, kHalf, diffusivity(kGamma, 6), (kWall - kMelting) / kLatent};
+      const MouldedBall ball{equal, kBeyond, diffusivity(kGamma, 6), (kWall - kMelting) / kLatent};
       const auto exact = [&](double part) { return ball.time_of(part); };
-      const double gated_from = viscous ? kNever : 0.5;
-      follow(outcome, chart, trial, fmt::format("{} law, radius {:g}", law, radius), exact, gated_from);
+      follow(outcome, chart, trial, fmt::format("{} law, radius {:g}", law, radius), exact);
     }
   outcome.charts.push_back(std::move(chart));
   return outcome;
@@ -129,7 +129,7 @@ Outcome measure_ball_in_oven(const Conditions& conditions) {
                 [&](state::Volume& v) { equal = put_ball(v, radius, kMelting * kHottest, 0); });
     const BaredBall ball{equal, kExchange * (kAir - kMelting) / kLatent};
     const auto exact = [&](double part) { return ball.time_of(part); };
-    follow(outcome, chart, trial, fmt::format("radius {:g}", radius), exact, kParts[0]);
+    follow(outcome, chart, trial, fmt::format("radius {:g}", radius), exact);
   }
   outcome.charts.push_back(std::move(chart));
   return outcome;

@@ -112,8 +112,7 @@ class HeatRules {
         h += std::min(Format::radiated((*irradiance)[irradiance->layout().at(x, y, z)], dither),
                       Format::kMost - h);
       if (const int axes = heat_.air ? exposed_axes(cells, i) : 0; axes > 0) {
-        constexpr std::array<std::int64_t, 4> kArea{0, 4096, 5793, 7094};
-        const std::int64_t rate = (heat_.air_exchange * kArea[axes]) >> 12;
+        const std::int64_t rate = (heat_.air_exchange * (3 + axes)) >> 2;
         const Wide air = Format::of(heat_.air_temperature[y]);
         h += std::min(Format::part(air - temperature(h), rate, dither), Format::kMost - h);
       }

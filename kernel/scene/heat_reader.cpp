@@ -20,8 +20,7 @@ constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and c
 // neighbours the corners damp it, and no wave that changes its sign keeps more than a fifth.
 constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
-constexpr double kLargestExchange =
-    0.57735;  // 1 / sqrt 3: a corner exposed on three axes stays within the air
+constexpr double kLargestExchange = 0.66666;  // 2 / 3: a corner exposed on three axes stays within the air
 constexpr double kSmallestExchange = 1 / 65536.0;  // less is nothing in the rule
 constexpr double kLargestRadius = 8192;
 constexpr double kLargestDirection = 1e6;

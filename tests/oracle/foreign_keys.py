@@ -60,7 +60,7 @@ KEYS = {
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),
     "heat.visibility_every": Key(1, 1024, 1, 4, 2, 1023),
     "heat.rays_per_face": Choice(1, 4, 16),
-    "heat.air.exchange": Key(1 / 65536, 0.57735, 0.01, 0.5, 3 / 65536),
+    "heat.air.exchange": Key(1 / 65536, 0.66666, 0.01, 0.5, 3 / 65536),
     "heat.air.bottom": TEMPERATURE,
     "heat.air.top": TEMPERATURE,
     "heat_source.kind": Choice(*KEYS_OF),

@@ -13,9 +13,6 @@ const std::vector<Axis> FACES = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Axis> EDGES = {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 const std::vector<Axis> CORNERS = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
 
-// W[n] of section 6 is 4096 times the square root of the number of axes.
-constexpr Int AXIS_WEIGHT[4] = {0, 4096, 5793, 7094};
-
 // Returns T(h).
 Int temperature(const State& state, Int i) {
   const Int h = state.cells[i].heat;
@@ -114,7 +111,7 @@ void exchange_with_air(State& state) {
     const Int n = airy_axes(state, p);
     if (n == 0) continue;
     Cell& cell = state.cells[i];
-    const Int w = (rules.air_exchange * AXIS_WEIGHT[n]) >> 12;
+    const Int w = (rules.air_exchange * (3 + n)) >> 2;
     const Int difference = rules.air_temperature[p.y] - temperature(state, i);
     const Int gained = smaller(scaled(difference, w, state.offset), 65535 - cell.heat);
     cell.heat += gained;

@@ -140,7 +140,7 @@ Heat read_heat(const Json& json, Int ny) {
   }
   heat.air = yes(json, "air");
   if (heat.air) {
-    heat.air_exchange = integer(json, "air_exchange", 0, 37837);
+    heat.air_exchange = integer(json, "air_exchange", 0, 43690);
     heat.air_temperature = integers(member(json, "air_temperature"), "air_temperature", 0, 65535);
     require(static_cast<Int>(heat.air_temperature.size()) == ny, "air_temperature has not ny numbers");
   }

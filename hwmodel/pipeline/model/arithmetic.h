@@ -72,9 +72,6 @@ inline UInt<16> temperature_of(std::int64_t h, const rule::Material& material) {
   return std::max<std::int64_t>(material.melting_point, h - material.latent_heat);
 }
 
-// Weighs the number of exposed axes by 4096 sqrt(0, 1, 2, 3).
-inline constexpr std::array<std::int64_t, 4> kAxisWeight{0, 4096, 5793, 7094};
-
 // The directions stand in the order of a pattern's bits: +x -x +z -z, then the diagonals.
 inline constexpr std::array<int, 8> kStepX{1, -1, 0, 0, 1, 1, -1, -1};
 inline constexpr std::array<int, 8> kStepZ{0, 0, 1, -1, 1, -1, 1, -1};

@@ -22,8 +22,8 @@ class Exchange final : public Stage {
         radiation_(design.parameters.heat.radiation),
         air_(design.parameters.heat.air) {
     const rule::Heat& heat = design.parameters.heat;
-    for (std::size_t axes = 0; axes < air_weight_.size(); ++axes)
-      air_weight_[axes] = (heat.air_exchange * kAxisWeight[axes]) >> 12;
+    for (std::size_t axes = 1; axes < air_weight_.size(); ++axes)
+      air_weight_[axes] = (heat.air_exchange * (3 + axes)) >> 2;
     if (air_) air_temperature_.assign(heat.air_temperature.begin(), heat.air_temperature.end());
   }
 

@@ -77,7 +77,7 @@ struct Heat {
   std::uint64_t ray_seed = 1;  // the scene's seed, for the places where rays end
   std::vector<HeatSource> sources;
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
-  std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 37837
+  std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 43690
   std::vector<Temperature> air_temperature;  // one per y
 
   VOXMELT_RULE bool radiates() const { return enabled && radiation; }

@@ -26,10 +26,8 @@ class Exchange {
         melting_(step.parameters->material),
         dither_(L::set(static_cast<int>(step.dither))),
         rest_(L::set(static_cast<int>(0xFFFF - step.dither))) {
-    // The exposure is 4096 times the root of the number of exposed axes.
-    constexpr int kExposure[3]{4096, 5793, 7094};
     const int exchange = step.parameters->heat.air_exchange;
-    for (int n = 0; n < 3; ++n) rate_[n] = L::set((exchange * kExposure[n]) >> 12);
+    for (int n = 0; n < 3; ++n) rate_[n] = L::set((exchange * (4 + n)) >> 2);  // of n + 1 exposed axes
     blows_ = kFeatures.air && exchange > 0;
   }
 

@@ -3,21 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <cstdint>
 
 namespace voxmelt::hwmodel {
 namespace {
-
-// The weight of n exposed axes is 4096 sqrt(n), rounded to the nearest whole number.
-TEST(AxisWeight, IsTheRootOfTheAxes) {
-  EXPECT_EQ(kAxisWeight[0], 0);
-  for (std::size_t n = 1; n < kAxisWeight.size(); ++n) {
-    const std::int64_t twice = 2 * kAxisWeight.at(n), square = static_cast<std::int64_t>(n) << 26;
-    EXPECT_LE((twice - 1) * (twice - 1), square) << n;
-    EXPECT_GE((twice + 1) * (twice + 1), square) << n;
-  }
-}
 
 // A quotient is right everywhere if it is right at each multiple of n and at the number before it.
 TEST(Reciprocal, GivesEveryQuotient) {

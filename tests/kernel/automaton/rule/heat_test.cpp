@@ -130,14 +130,22 @@ TEST(Convection, GivesUpwardsAtMostTheDifference) {
       }
 }
 
+// By hand: 4/4, 5/4 and 6/4 of 1000 and of 1001.
+TEST(Exchange, GoesByTheAreaOfADigitalSurface) {
+  EXPECT_EQ(exposed_exchange(1000, 1), 1000);
+  EXPECT_EQ(exposed_exchange(1000, 2), 1250);
+  EXPECT_EQ(exposed_exchange(1001, 2), 1251);
+  EXPECT_EQ(exposed_exchange(1001, 3), 1501);
+}
+
 TEST(Exchange, MovesTowardsTheAirAndNotPastIt) {
   const Material plain{32768, 0};
-  EXPECT_LE((37837 * kExposure[3]) >> 12, 65535);
+  EXPECT_LE(exposed_exchange(43690, 3), 65535);
   for (const std::int32_t air : {0, 1, 32768, 65534, 65535})
     for (std::int32_t h = 0; h <= 65535; ++h)
       for (const int axes : {1, 3})
         for (const std::int32_t r : {0, 65535}) {
-          const std::int32_t after = h + exchanged(h, air, 37837, axes, r, plain);
+          const std::int32_t after = h + exchanged(h, air, 43690, axes, r, plain);
           ASSERT_GE(after, std::min(h, air));
           ASSERT_LE(after, std::max(h, air));
         }
@@ -148,7 +156,7 @@ TEST(Exchange, WithLatentHeatMovesByNoMoreThanTheTemperaturesDiffer) {
   for (const std::int32_t air : {0, 29999, 30000, 30001, 45535, 65535})
     for (std::int32_t h = 0; h <= 65535; ++h)
       for (const std::int32_t r : {0, 65535}) {
-        const std::int32_t g = exchanged(h, air, 37837, 3, r, m), difference = air - temperature_of(h, m);
+        const std::int32_t g = exchanged(h, air, 43690, 3, r, m), difference = air - temperature_of(h, m);
         ASSERT_LE(std::abs(g), std::abs(difference)) << h << ' ' << air;
         ASSERT_TRUE(h + g >= 0 && h + g <= 65535);
       }

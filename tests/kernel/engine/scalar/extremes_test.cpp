@@ -126,7 +126,7 @@ TEST(Heat, OvenAndConvectionStayBetweenTheAirs) {
       p.heat.weight_edge = 5461;
       p.heat.weight_corner = 3640;
       p.heat.convection = 32767;
-      p.heat.air_exchange = 37837;
+      p.heat.air_exchange = 43690;
       p.material = {30000, static_cast<rule::Temperature>(latent)};
       Volume v(Grid{6, 8, 6});
       for (int y = 0; y < v.grid.y; ++y)

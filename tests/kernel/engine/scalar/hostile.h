@@ -32,7 +32,7 @@ inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
   p.heat.walls = p.heat.enabled && random.one_in(3);
   p.heat.convection = static_cast<std::uint16_t>(random.any({0, 1, 20000, 32767}));
   p.heat.air = random.one_in(2);
-  p.heat.air_exchange = static_cast<std::uint16_t>(random.any({1, 9000, 37837}));
+  p.heat.air_exchange = static_cast<std::uint16_t>(random.any({1, 9000, 43690}));
   for (int y = 0; y < g.y; ++y)
     p.heat.air_temperature.push_back(
         static_cast<rule::Temperature>(random.any({0, 65535, random.below(65536)})));

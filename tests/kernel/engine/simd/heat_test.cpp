@@ -177,7 +177,7 @@ World sleepy_world(Random& random, Grid grid) {
   p.heat.weight_edge = small(5461);
   p.heat.weight_corner = small(3640);
   p.heat.convection = small(32767);
-  p.heat.air_exchange = small(37837);
+  p.heat.air_exchange = small(43690);
   p.heat.air = random.one_in(4);
   p.heat.radiation = random.one_in(4);
   p.material.melting_point = 30000;
