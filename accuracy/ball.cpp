@@ -90,9 +90,8 @@ void follow(Outcome& outcome, Chart& chart, Trial& trial, const std::string& set
 }  // namespace
 
 // The wall's temperature is that of the centres of its cells. Behind a face along axis i of a plane with the
-// normal n they lie up to |n_i| beyond it, and there are |n_i| such faces on each unit of area. So their mean
-// distance is (sum n_i^2 / 2) / sum |n_i|. Over a sphere that is (1/2) / (3/2). What has melted stays where
-// it is, under both laws.
+// normal n they lie up to |n_i| beyond it, and |n_i| such faces are on each unit of area. So their mean
+// distance is (sum n_i^2 / 2) / sum |n_i|. Over a sphere that is (1/2) / (3/2). The melt stays where it is.
 Outcome measure_ball_in_mould(const Conditions& conditions) {
   constexpr double kGamma = 0.3, kBeyond = 1. / 3, kMelting = 0.02, kLatent = 0.4, kWall = 0.42;
   Outcome outcome;
