@@ -89,6 +89,15 @@ inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) 
   return {"hostile " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
 
+// Starts with vaults that are full of liquid, where runs are shut.
+inline Start vault_start(std::uint64_t seed, state::Grid grid) {
+  worlds::Random random(seed * 6151 + 5);
+  rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+  state::Volume volume(grid);
+  worlds::put_vaults(random, volume, parameters.heat.enabled);
+  return {"vaults " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
+}
+
 inline std::string name_of(const Configuration& c) {
   return "P " + std::to_string(c.lanes) + ", T " + std::to_string(c.cascade) + ", depth " +
          std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed) + ", sub-steps " +
