@@ -98,6 +98,11 @@ inline Start vault_start(std::uint64_t seed, state::Grid grid) {
   return {"vaults " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
 
+// Starts with a world in which the fault may strike. Random amounts hardly ever make two shut runs that meet.
+inline Start start_for(Fault fault, std::uint64_t seed, rule::Law law, state::Grid grid) {
+  return fault == Fault::viscous_shut ? vault_start(seed, grid) : hostile_start(seed, law, grid);
+}
+
 inline std::string name_of(const Configuration& c) {
   return "P " + std::to_string(c.lanes) + ", T " + std::to_string(c.cascade) + ", depth " +
          std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed) + ", sub-steps " +
