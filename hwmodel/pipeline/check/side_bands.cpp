@@ -13,11 +13,13 @@ ShownRuns::ShownRuns(const scalar::Reference& reference, state::Grid grid) : gri
       bool inside = false;
       for (int y = 0; y < grid.y; ++y) {
         // A blocked cell lies between two runs of a column.
-        const std::optional<rule::Column> shows = reference.run_of(layout.at(x, y, z));
+        const state::Slot at = layout.at(x, y, z);
+        const std::optional<rule::Column> shows = reference.run_of(at);
         if (shows && inside)
           runs_.back().last = y;
         else if (shows)
-          runs_.push_back({y, y, shows->head, shows->mobility, shows->exposed, shows->dead, shows->limit});
+          runs_.push_back({y, y, shows->head, shows->mobility, shows->exposed, shows->dead, shows->limit,
+                           reference.in_shut_run(at)});
         inside = shows.has_value();
       }
     }

@@ -21,6 +21,7 @@ class ShownRuns {
   struct Run {
     int first, last;  // heights of its cells
     std::int32_t head, mobility, exposed, dead, limit;
+    bool shut;
   };
   const Run* at(int x, int y, int z) const;  // null: the cell is in no run
 

@@ -23,6 +23,7 @@ void add_bands(const SideBands& bands, int x, int y, int z, state::Slot at, Cell
   cell.limit = run->limit;
   cell.mobility = std::max(run->mobility, run->exposed);
   cell.dead = run->dead;
+  cell.shut = run->shut;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// These faults end runs too early, lose a bit of their sum, do not mix them, or show something wrong. Another
-// one lets columns leave upside down.
+// These faults end runs too early, lose a bit of their sum, do not mix them, mistake which are shut, or show
+// something wrong. Another one lets columns leave upside down.
 #pragma once
 
 #include <algorithm>
@@ -43,18 +43,22 @@ class SettleFaults : public Planted {
       const auto wrong =
           std::mismatch(right.begin(), right.end(), broken.cells.begin()).first - right.begin();
       if (wrong == std::ssize(right)) continue;
-      return part(stage, lane, top, broken.record,
-                  show_alike(stage, word, broken.record) ? static_cast<int>(wrong) : 0);
+      // Under a cell of its own, that has left it, the broken run is not shut.
+      const bool roofed = in == nullptr || stage.came().y == 0 || in[lane].blocked();
+      const bool alike = show_alike(stage, word, broken.record) && !(roofed && is_full(word.sum, word.last));
+      return part(stage, lane, top, broken.record, alike ? static_cast<int>(wrong) : 0);
     }
   }
 
   // Spoils a record that has come to the first cell of its run.
   void lowered(Faulty& stage) {
+    if (armed(stage, Fault::settle_roof)) return retell(stage, SettleKind::first, SettleKind::shut);
+    if (armed(stage, Fault::settle_slack)) return retell(stage, SettleKind::shut, SettleKind::first);
     const bool carry = armed(stage, Fault::settle_sum_carry);
     if (!carry && !armed(stage, Fault::settle_mix)) return;
     for (int lane = 0; lane < stage.lanes(); ++lane) {
       SettleWord& word = stage.words_[lane];
-      if (word.kind != SettleKind::first) continue;
+      if (!word.lowest()) continue;
       if (!carry) {
         if (word.heat == stage.turned_[lane].heat) continue;
         word.heat = stage.turned_[lane].heat;
@@ -105,6 +109,8 @@ class SettleFaults : public Planted {
       cell.limit = cell.limit - 1;
     else if (armed(stage, Fault::settle_dead_zone))
       cell.dead = cell.dead - 1;
+    else if (armed(stage, Fault::settle_shut) && cell.shut == 1)
+      cell.shut = 0;
     else
       return;
     strike_lane(stage, stage.leaving(), lane);
@@ -132,7 +138,8 @@ class SettleFaults : public Planted {
   // Compares what the next stage can tell apart. Mobilities are never used without a limit.
   static bool alike(Cell a, Cell b) {
     const auto limited = [](const RunPace& pace) { return std::array{pace.limited(), pace.exposed()}; };
-    const bool same_pace = limited({a.mobility, a.limit, a.dead}) == limited({b.mobility, b.limit, b.dead});
+    const bool same_pace =
+        limited({a.mobility, a.limit, a.dead, a.shut}) == limited({b.mobility, b.limit, b.dead, b.shut});
     a.mobility = b.mobility;
     return same_pace && a == b;
   }
@@ -163,7 +170,7 @@ class SettleFaults : public Planted {
     outcome.cells.resize(cells.size());
     for (std::size_t k = cells.size(); k-- > 0;) {
       const SettleWord& record = outcome.record;
-      const std::int64_t heat = down.next(words[k], stage.dither_).heat;
+      const std::int64_t heat = down.next(words[k], false, stage.dither_).heat;
       const std::int64_t amount = settled_amount(record.sum, record.last, k);
       outcome.cells[k] = {amount, amount > 0 ? heat : 0};
     }
@@ -178,6 +185,19 @@ class SettleFaults : public Planted {
     strike(stage, place.x + lane, place.y - static_cast<int>(word.last) + wrong, place.z);
     stage.downwards_.newest()[lane] = record;
     word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
+  }
+
+  // Lets a full run be shut that is not, for it has no ceiling; or a shut one not be, for it is not quite
+  // full.
+  void retell(Faulty& stage, SettleKind right, SettleKind wrong) {
+    for (int lane = 0; lane < stage.lanes(); ++lane) {
+      SettleWord& word = stage.words_[lane];
+      const bool whole = word.sum == (word.last + 1) * kOne;
+      const bool told = right == SettleKind::first ? is_full(word.sum, word.last) : !whole;
+      if (word.kind != right || !told) continue;
+      word.kind = wrong;
+      return strike_turned(stage, lane, 0);
+    }
   }
 
   // Strikes `above` cells above the one that has come on its way down.

@@ -1,6 +1,6 @@
-// These faults spoil the flows of the viscous spread. A flow moves inside the dead zone, or uses the dither
-// of the next axis, sub-step or layer. It flows as on a level bed, by the giver's amount alone, or is lost on
-// its way. Others let cells leave without their side bands.
+// These faults spoil the flows of the viscous spread. A flow moves inside the dead zone or between shut runs,
+// or uses the dither of the next axis, sub-step or layer. It flows as on a level bed, by the giver's amount
+// alone, or is lost on its way. Others let cells leave without their side bands.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,11 @@ class ViscousSpreadFaults : public Planted {
   void wanted(Faulty& stage, const SeenCell& from, const SeenCell& to, const SpreadPair& pair,
               UInt<16>& amount) {
     const int axis = pair.axis;
-    const bool rests = stage.rests(from, to, axis);
+    const bool closed = stage.closed(from, to), dead = stage.in_dead_zone(from, to, axis);
+    const bool rests = closed || dead;
     UInt<16> wrong = amount;
-    if (rests && armed(stage, Fault::viscous_dead_zone))
+    if ((dead && !closed && armed(stage, Fault::viscous_dead_zone)) ||
+        (closed && !dead && armed(stage, Fault::viscous_shut)))
       wrong = stage.wanted(from, to, pair, stage.dither_of_axis(axis));
     if (!rests && armed(stage, Fault::viscous_dither))
       wrong = stage.wanted(from, to, pair, stage.dither_of_axis((axis + 1) % 4));

@@ -47,6 +47,7 @@ struct Cell : StoredCell {
   UInt<22> mobility;
   UInt<14> limit;
   UInt<25> dead;
+  UInt<1> shut;  // the run is full, and has a ceiling
 
   // Ends a phase. A cell that is not blocked becomes liquid if it holds something, and otherwise empty and
   // cold.

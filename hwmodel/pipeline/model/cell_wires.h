@@ -28,6 +28,7 @@ enum class Wire : std::uint8_t {
   mobility,
   limit,
   dead,
+  shut,
 };
 
 struct CellWire {
@@ -78,6 +79,7 @@ inline constexpr std::array kCellWires{
     cell_wire<&Cell::mobility>(Wire::mobility, "mobility", "mobility", false),
     cell_wire<&Cell::limit>(Wire::limit, "limit", "limit", false),
     cell_wire<&Cell::dead>(Wire::dead, "dead", "dead zone", false),
+    cell_wire<&Cell::shut>(Wire::shut, "shut", "shut", false),
 };
 inline constexpr const CellWire& row_of(Wire wire) { return kCellWires[index_of(wire)]; }
 

@@ -17,12 +17,13 @@ enum class Ground : std::uint8_t { solid, inert, outside, run };
 
 inline constexpr std::int64_t kNoBed = -1;  // bed of a cell in the air
 
-// Tells how fast, and from which difference of heads on, a run flows.
+// Tells how fast, and from which difference of heads on, a run flows. Two shut runs give each other nothing.
 struct RunPace {
   UInt<22> mobility;  // not limited yet
   UInt<14> limit;     // 0: no run
   UInt<25> dead;
-  static constexpr int kBits = 22 + 14 + 25;
+  UInt<1> shut;
+  static constexpr int kBits = 22 + 14 + 25 + 1;
 
   std::int64_t limited() const { return std::min<std::int64_t>(mobility, limit << 8); }  // towards a run
   std::int64_t exposed() const { return std::min<std::int64_t>(mobility, 1 << 21); }  // towards a bare flank

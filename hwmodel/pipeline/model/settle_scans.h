@@ -12,8 +12,9 @@ namespace voxmelt::hwmodel {
 
 // Tells what a cell is between two scans. A run's record lies in one of its words: the uppermost one after
 // the first scan, the lowest one after the second. The other words of a run hold the cell's heat, and after
-// the first scan its amount.
-enum class SettleKind : std::uint8_t { solid, inert, outside, inner, first, top, single };
+// the first scan its amount. After the second one the lowest word is `shut` or `first`, and none is `top` or
+// `single`.
+enum class SettleKind : std::uint8_t { solid, inert, outside, inner, first, top, single, shut };
 inline constexpr int kSettleKindBits = 3;
 
 struct SettleWord {
@@ -27,6 +28,8 @@ struct SettleWord {
   UInt<16> mean;    // mean heat, with thermal viscosity
 
   bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
+  // After the second scan this tells where a record lies.
+  bool lowest() const { return kind == SettleKind::first || kind == SettleKind::shut; }
 
   // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first.
   static int bits(const RunWidths& widths, bool hot, bool thermal) {
@@ -119,22 +122,28 @@ class SumScan {
 };
 
 // The second scan goes down, takes the record along to the first cell, and moves down what is missing below.
+// It has just seen the cell above a run, and so tells if the run is shut.
 class RecordScan {
  public:
-  SettleWord next(const SettleWord& word, std::int64_t dither) {
+  // `top` says that another column begins, under the border.
+  SettleWord next(const SettleWord& word, bool top, std::int64_t dither) {
+    const bool shut = (top || under_blocked_) && is_full(word.sum, word.last);
+    const SettleKind lowest = shut ? SettleKind::shut : SettleKind::first;
+    under_blocked_ = word.blocked();
     switch (word.kind) {
       case SettleKind::top:
         record_ = word;
+        record_.kind = lowest;
         flow_ = {};
         level_ = std::int64_t{word.sum} - word.last * kOne;
         return {SettleKind::inner, 0, 0, lower(word.top, word.heat, dither), 0, 0, 0};
       case SettleKind::inner:
         return {SettleKind::inner, 0, 0, lower(word.sum, word.heat, dither), 0, 0, 0};
       case SettleKind::first:
-        return {SettleKind::first, record_.sum, record_.last, lower(word.sum, word.heat, dither), 0, 0,
+        return {record_.kind, record_.sum, record_.last, lower(word.sum, word.heat, dither), 0, 0,
                 record_.mean};
       case SettleKind::single:
-        return {SettleKind::first, word.sum, word.last, word.heat, 0, 0, word.mean};
+        return {lowest, word.sum, word.last, word.heat, 0, 0, word.mean};
       default:
         return word;
     }
@@ -150,7 +159,8 @@ class RecordScan {
     return own;
   }
 
-  SettleWord record_;
+  SettleWord record_;      // its kind is that of the run's lowest word
+  UInt<1> under_blocked_;  // the cell above is blocked
   SettleFlow flow_;
   SInt<29> level_;  // the run's amount, less ONE for each cell below
 };
@@ -182,6 +192,7 @@ class ShowScan {
     if (!cell.in_run) return;
     cell.head = show_.head;
     cell.dead = show_.dead;
+    cell.shut = shut_;
     cell.mobility = show_.mobility;
     cell.limit = show_.limit;
   }
@@ -189,7 +200,8 @@ class ShowScan {
  private:
   void settle(const SettleWord& word, int y, const rule::Flow& flow, std::int64_t pace,
               const RunWidths& widths, Cell& cell) {
-    if (word.kind == SettleKind::first) {
+    if (word.lowest()) {
+      shut_ = word.kind == SettleKind::shut;
       show_ = shown(word.sum, word.last, bed_head(y, rise_), word.mean, flow, pace, widths);
       level_ = word.sum;
       // The product with kOverMax = 61439 takes two shifts and two subtractions.
@@ -204,6 +216,7 @@ class ShowScan {
 
   UInt<14> rise_ = kFlatRise;  // of the bed, the blocked cell below
   RunShow show_;
+  UInt<1> shut_;
   UInt<28> level_;  // the run's amount, less ONE for each cell below
   SInt<30> spare_;  // the amount beyond ONE per cell, less what the cells above can hold
 };

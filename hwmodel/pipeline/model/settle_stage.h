@@ -33,7 +33,7 @@ class Settle final : public Stage {
         upwards_(lanes(), height_) {}
 
   Wires side_bands() const override {
-    return {Wire::in_run, Wire::head, Wire::mobility, Wire::limit, Wire::dead};
+    return {Wire::in_run, Wire::head, Wire::mobility, Wire::limit, Wire::dead, Wire::shut};
   }
   int width_of(Wire wire) const override { return wire == Wire::head ? widths_.head : Stage::width_of(wire); }
   std::vector<BufferCost> buffers() const override {
@@ -80,7 +80,7 @@ class Settle final : public Stage {
     dither_ = at(dithers_, turned_delay());
     for (const int each : each_lane(turned_delay())) {
       const std::size_t lane = each;
-      words_[lane] = records_[lane].next(turned_[lane], dither_);
+      words_[lane] = records_[lane].next(turned_[lane], tokens_above() == 0, dither_);
     }
     faults_.lowered(*this);
 
@@ -98,13 +98,11 @@ class Settle final : public Stage {
  private:
   friend Faults;
 
-  // Returns how long ago the token came that has been turned round once. Its column is the one before, top
-  // first.
-  std::int64_t turned_delay() const {
-    const std::int64_t above =
-        (came().ordinal + height_ - 1) % height_;  // tokens of the column that lie above it
-    return 2 * (above + 1);
-  }
+  // Returns how many tokens of its column lie above the one that has been turned round once. The column is
+  // the one before that of the token that came, top first.
+  std::int64_t tokens_above() const { return (came().ordinal + height_ - 1) % height_; }
+  // Returns how long ago that token came.
+  std::int64_t turned_delay() const { return 2 * (tokens_above() + 1); }
 
   std::size_t size() const { return lanes(); }
 

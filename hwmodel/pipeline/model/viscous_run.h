@@ -78,6 +78,12 @@ inline std::int64_t over_of(std::int64_t sum, std::int64_t last) {
   return std::max<std::int64_t>(0, sum - (last + 1) * kOne);
 }
 
+// Returns true if a run is full, but for 1/64 of a cell. Under a ceiling it is shut then.
+inline bool is_full(std::int64_t sum, std::int64_t last) {
+  const SInt<29> excess = sum - (last + 1) * kOne;
+  return -kOne / 64 <= excess && excess <= kOne / 64;
+}
+
 // Returns the settled amount of cell k, from scratch. The hardware steps from cell to cell (ShowScan).
 inline std::int64_t settled_amount(std::int64_t sum, std::int64_t last, std::int64_t k) {
   const std::int64_t spare = over_of(sum, last) - kOverMax * (last - k);

@@ -133,7 +133,7 @@ class ViscousSpread final : public Stage {
     RunReader& reader = now_[lane].reader;
     if (!cell.in_run || !reader.above_blocked(came().y)) return;
     word.head = signed_wire(cell.head, head_bits_);
-    const RunPace pace{cell.mobility, cell.limit, cell.dead};
+    const RunPace pace{cell.mobility, cell.limit, cell.dead, cell.shut};
     reader.bring(pace);
     if (came().y == 0)
       floor_.tap(0)[lane] = pace;
@@ -206,15 +206,18 @@ class ViscousSpread final : public Stage {
   // Lets liquid flow from the cell with the higher head.
   void flow(const SeenCell& from, const SeenCell& to, const SpreadPair& pair) {
     if (!from.word->runs()) return;
-    UInt<16> amount = rests(from, to, pair.axis) ? 0 : wanted(from, to, pair, dither_of_axis(pair.axis));
+    const bool rests = closed(from, to) || in_dead_zone(from, to, pair.axis);
+    UInt<16> amount = rests ? 0 : wanted(from, to, pair, dither_of_axis(pair.axis));
     faults_.wanted(*this, from, to, pair, amount);
     if (amount == 0) return;
     move(*from.word, *to.word, amount);
     faults_.moved(*this, from, to, amount);
   }
 
-  // Returns true inside the dead zone.
-  static bool rests(const SeenCell& from, const SeenCell& to, int axis) {
+  // Returns true between two shut runs.
+  static bool closed(const SeenCell& from, const SeenCell& to) { return from.pace.shut && to.pace.shut; }
+
+  static bool in_dead_zone(const SeenCell& from, const SeenCell& to, int axis) {
     const std::int64_t dead = from.pace.dead;
     return from.head - to.head <= (is_diagonal(axis) ? (11 * dead) >> 3 : dead);
   }

@@ -28,6 +28,7 @@ class Reference final : public step::HostStepper {
     if (in_run_[i] == 0) return {};
     return column_of(i);
   }
+  bool in_shut_run(state::Slot i) const { return shut_[i] != 0; }
 
  private:
   using Volume = state::Volume;

@@ -24,6 +24,16 @@ TEST(Lockstep, HostileWorlds) {
   }
 }
 
+TEST(Lockstep, Vaults) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    worlds::Random random(seed + 77);
+    const state::Grid grid{random.between(2, 18), random.between(2, 8), random.between(1, 8)};
+    const Configuration c{random.any({1, 2, 4, 8, 16, 32}), random.between(1, 3), random.any({1, 2, 8}),
+                          random.one_in(2) ? 0 : seed};
+    ASSERT_TRUE(agrees(vault_start(seed, grid), c, 5)) << "seed " << seed;
+  }
+}
+
 TEST(Lockstep, AwkwardSizes) {
   std::uint64_t seed = 1000;
   for (const int size : {1, 2, 63, 64, 65})

@@ -89,6 +89,20 @@ inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) 
   return {"hostile " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
 
+// Starts with vaults that are full of liquid, where runs are shut.
+inline Start vault_start(std::uint64_t seed, state::Grid grid) {
+  worlds::Random random(seed * 6151 + 5);
+  rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+  state::Volume volume(grid);
+  worlds::put_vaults(random, volume, parameters.heat.enabled);
+  return {"vaults " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
+}
+
+// Starts with a world in which the fault may strike. Random amounts hardly ever make two shut runs that meet.
+inline Start start_for(Fault fault, std::uint64_t seed, rule::Law law, state::Grid grid) {
+  return fault == Fault::viscous_shut ? vault_start(seed, grid) : hostile_start(seed, law, grid);
+}
+
 inline std::string name_of(const Configuration& c) {
   return "P " + std::to_string(c.lanes) + ", T " + std::to_string(c.cascade) + ", depth " +
          std::to_string(c.fifo_depth) + ", seed " + std::to_string(c.stall_seed) + ", sub-steps " +

@@ -10,10 +10,10 @@
 namespace voxmelt::hwmodel {
 namespace {
 
-Start deep_start(std::uint64_t seed, rule::Law law, int depth) {
+Start deep_start(std::uint64_t seed, rule::Law law, int depth, Fault fault = Fault::none) {
   worlds::Random random(seed + 99);
-  Start start = hostile_start(seed, law, {random.between(1, 9), random.between(1, 6), depth});
-  if (law == rule::Law::viscous) start.parameters.flow.viscous.substeps = 1;
+  Start start = start_for(fault, seed, law, {random.between(1, 9), random.between(1, 6), depth});
+  if (start.parameters.flow.law == rule::Law::viscous) start.parameters.flow.viscous.substeps = 1;
   return start;
 }
 
@@ -119,7 +119,8 @@ TEST(Overlap, EveryFaultIsFoundWhereItWasPlanted) {
     if (is_of_tiles(fault.fault)) continue;  // tile_test.cpp plants these
     int here = 0;
     for (std::uint64_t seed = 0; seed < 60 && here < 3; ++seed) {
-      const Start start = deep_start(seed + 900, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, 40);
+      const rule::Law law = seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
+      const Start start = deep_start(seed + 900, law, 40, fault.fault);
       Configuration c{seed % 3 == 0 ? 2 : 4, 1 + static_cast<int>(seed % 2), 2, seed % 4 == 0 ? 0 : seed};
       c.coded = is_of_the_code(fault.fault);
       const VerifyReport report = lockstep(start, c, 6, fault.fault, 3);

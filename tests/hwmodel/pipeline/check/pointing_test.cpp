@@ -102,7 +102,8 @@ TEST(Pointing, EveryBandIsComparedBehindTheStageThatMakesIt) {
       {"head", [](Cell& cell) { cell.head = 1; }},
       {"limit", [](Cell& cell) { cell.limit = 1; }},
       {"mobility", [](Cell& cell) { cell.mobility = 1; }},
-      {"dead zone", [](Cell& cell) { cell.dead = 1; }}};
+      {"dead zone", [](Cell& cell) { cell.dead = 1; }},
+      {"shut", [](Cell& cell) { cell.shut = 1; }}};
   for (const auto& one : changes) {
     const std::string& field = one.first;
     const VerifyReport report =

@@ -211,7 +211,8 @@ TEST_P(TileFaults, IsFoundWhereItWasPlanted) {
   for (std::uint64_t seed = 0; seed < 200 && struck < (of_tiles ? 6 : 2); ++seed) {
     worlds::Random random(seed + 777);
     const state::Grid grid{random.between(20, 40), random.between(3, 6), random.between(3, 24)};
-    const Start start = hostile_start(seed + 40, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
+    const rule::Law law = seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
+    const Start start = start_for(fault.fault, seed + 40, law, grid);
     Configuration c{random.any({1, 2, 4}), random.between(1, 2), random.any({1, 2, 4}),
                     random.one_in(2) ? 0 : seed};
     c.tile = narrow(start, c, random.between(2, 6));

@@ -21,7 +21,8 @@ TEST_P(PlantedFault, IsFoundWhereItWasPlanted) {
   for (std::uint64_t seed = 0; seed < 600 && struck < 5; ++seed) {
     worlds::Random random(seed + 4242);
     const state::Grid grid{random.between(3, 18), random.between(3, 10), random.between(3, 10)};
-    Start start = hostile_start(seed, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
+    const rule::Law law = seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
+    Start start = start_for(fault.fault, seed, law, grid);
     Configuration c{random.any({2, 4, 16}), random.between(1, 3), random.any({1, 2, 4}),
                     random.one_in(2) ? 0 : seed};
     if (is_of_tiles(fault.fault)) {

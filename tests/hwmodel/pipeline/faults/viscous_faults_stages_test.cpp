@@ -36,11 +36,14 @@ At first_difference(const Shape& shape, const state::Volume& expected, const sta
 }
 
 // Plants `fault` in one fresh world after another, from a random step on.
-void expect_found(Fault fault, Phase last, const std::string& stage) {
+void expect_found(Fault fault, Phase last, const std::string& stage, bool vaults = false) {
   int strikes = 0, later = 0, hot = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     worlds::Random random(seed * 7919 + 3);
-    ViscousWorld world(random, small_grid(random), random.any({1, 2, 4, 8, 16}));
+    const state::Grid grid = small_grid(random);
+    const int lanes = random.any({1, 2, 4, 8, 16});
+    ViscousWorld world =
+        vaults ? ViscousWorld::of_vaults(random, grid, lanes) : ViscousWorld(random, grid, lanes);
     Stages stages;
     FaultPlan plan(fault, static_cast<std::uint32_t>(random.below(3)));
     const StageMaker make = planted_stages(plan);
@@ -114,6 +117,7 @@ TEST(ViscousFaults, SumCarry) { expect_found(Fault::settle_sum_carry, Phase::exc
 TEST(ViscousFaults, SettleMix) { expect_found(Fault::settle_mix, Phase::excess, "settle"); }
 TEST(ViscousFaults, Reversal) { expect_found(Fault::settle_reversal, Phase::excess, "settle"); }
 TEST(ViscousFaults, DeadZone) { expect_found(Fault::viscous_dead_zone, Phase::spread, "spread"); }
+TEST(ViscousFaults, Shut) { expect_found(Fault::viscous_shut, Phase::spread, "spread", true); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }
 TEST(ViscousFaults, Slope) { expect_found(Fault::viscous_slope, Phase::spread, "spread"); }
 TEST(ViscousFaults, Mean) { expect_found(Fault::viscous_mean, Phase::spread, "spread"); }

@@ -16,10 +16,10 @@ namespace voxmelt::hwmodel {
 namespace {
 
 TEST(CellWires, WidthsAreThoseOfThePage) {
-  const std::vector<std::pair<std::string, int>> page{{"state", 2},       {"amount", 16},      {"energy", 16},
-                                                      {"heat", 16},       {"exposed_axes", 2}, {"pattern", 8},
-                                                      {"beside_wall", 1}, {"in_run", 1},       {"head", 30},
-                                                      {"mobility", 22},   {"limit", 14},       {"dead", 25}};
+  const std::vector<std::pair<std::string, int>> page{
+      {"state", 2},   {"amount", 16},     {"energy", 16}, {"heat", 16}, {"exposed_axes", 2},
+      {"pattern", 8}, {"beside_wall", 1}, {"in_run", 1},  {"head", 30}, {"mobility", 22},
+      {"limit", 14},  {"dead", 25},       {"shut", 1}};
   ASSERT_EQ(kCellWires.size(), page.size());
   for (std::size_t i = 0; i < page.size(); ++i) {
     EXPECT_EQ(kCellWires[i].name, page[i].first);
@@ -60,6 +60,7 @@ TEST(CellWires, TheyAreAllThatACellHas) {
   from.mobility = 6;
   from.limit = 7;
   from.dead = 8;
+  from.shut = 1;
   Cell to;
   for (const CellWire& row : kCellWires) row.set(to, row.get(from));
   EXPECT_EQ(to, from);

@@ -99,8 +99,8 @@ TEST(MemoryCost, ChannelsAreAsWideAsWhatTheyCarry) {
   EXPECT_EQ(widths_of("lesson_gravity").at(StageKind::walls), 34 + 1);
   const std::map<StageKind, int> viscous = widths_of("cello_viscous");
   EXPECT_EQ(viscous.at(StageKind::reader), 34) << "state, amount, heat";
-  EXPECT_EQ(viscous.at(StageKind::settle), 34 + 1 + 24 + 22 + 14 + 25)
-      << "in a run; head, mobility, limit, dead";
+  EXPECT_EQ(viscous.at(StageKind::settle), 34 + 1 + 24 + 22 + 14 + 25 + 1)
+      << "in a run; head, mobility, limit, dead, shut";
   EXPECT_EQ(viscous.at(StageKind::gravity), 34);
 }
 

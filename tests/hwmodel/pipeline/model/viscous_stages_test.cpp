@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "hwmodel/pipeline/model/viscous_run.h"
 #include "kernel/automaton/rule/viscous.h"
+#include "kernel/engine/scalar/reference.h"
 #include "tests/hwmodel/pipeline/model/viscous_worlds.h"
 
 namespace voxmelt::hwmodel {
@@ -63,8 +65,32 @@ TEST(ViscousStages, SpreadIsTheReferences) {
     expect_phases(rule::Law::viscous, Phase::excess, Phase::spread, make_both, 200, 3, seed);
 }
 
+// Counts pairs along axes that only their being shut keeps from flowing, and pairs of which one is shut.
+struct ShutPairs {
+  int both = 0, one = 0;
+
+  void count(const ViscousWorld& world, step::Moment moment, const state::Volume& before) {
+    state::Volume settled = before;
+    state::Ledger ledger;
+    scalar::Reference reference(world.design.parameters, before.grid);
+    reference.run(Phase::excess, moment, nullptr, settled, ledger);
+    const auto look = [&](state::Slot i, state::Slot j) {
+      const auto here = reference.run_of(i), there = reference.run_of(j);
+      if (!here || !there) return;
+      const std::int32_t drop = std::abs(here->head - there->head);
+      if (drop <= std::max(here->dead, there->dead)) return;
+      both += reference.in_shut_run(i) && reference.in_shut_run(j);
+      one += reference.in_shut_run(i) != reference.in_shut_run(j);
+    };
+    worlds::for_each(worlds::whole(before.grid), [&](int x, int y, int z) {
+      if (x + 1 < before.grid.x) look(before.at(x, y, z), before.at(x + 1, y, z));
+      if (z + 1 < before.grid.z) look(before.at(x, y, z), before.at(x, y, z + 1));
+    });
+  }
+};
+
 // Runs both stages on a given world for `count` steps.
-void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
+void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed, ShutPairs* pairs = nullptr) {
   Stages stages;
   make_both(world.design, make_stage, stages);
   StageRun run{2, stall_seed};
@@ -73,12 +99,26 @@ void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed) {
     world.step([&](Phase phase, const state::Volume& before) {
       if (phase == Phase::excess) start = before;
       if (phase != Phase::spread) return;
+      if (pairs != nullptr) pairs->count(world, world.moment, start);
       const state::Volume found = run_stages(world.design, stages, world.moment, nullptr, start, run);
       const state::Grid g = before.grid;
       ASSERT_EQ(worlds::difference(world.simulation.volume(), found), "")
           << g.x << " x " << g.y << " x " << g.z << ", " << world.design.shape.lanes << " lanes, step " << i;
     });
   }
+}
+
+// Vaults are full to their ceilings, which lie at many heights.
+TEST(ViscousStages, Vaults) {
+  ShutPairs pairs;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    worlds::Random random(seed);
+    const state::Grid grid = small_grid(random);
+    ViscousWorld world = ViscousWorld::of_vaults(random, grid, random.any({1, 2, 4, 8, 16}));
+    expect_steps(world, 3, random.one_in(2) ? 0 : 1 + seed, &pairs);
+  }
+  EXPECT_GT(pairs.both, 1000);
+  EXPECT_GT(pairs.one, 1000);
 }
 
 TEST(ViscousStages, EverySizeOfAnAxis) {
@@ -313,6 +353,63 @@ TEST(ViscousStages, SettleStandsOnSolidBeds) {
   EXPECT_EQ(seen.at(1, 1, 0).head, 320);
   EXPECT_EQ(seen.at(2, 1, 0).head, 768);
   EXPECT_EQ(seen.at(3, 1, 0).head, 640);
+}
+
+// A column of two cells holds two full cells and `excess`, and has this above it.
+enum class Above { border, inert, solid, air };
+bool shows_shut(std::int32_t excess, Above above, bool hot) {
+  const Design design = bed_design({1, above == Above::border ? 2 : 4, 1}, 8192, hot);
+  state::Volume start(design.shape.grid);
+  worlds::put(start, 0, 0, 0, 4096, 0, hot ? 40000 : 0);
+  worlds::put(start, 0, 1, 0, 4096 + excess, 0, hot ? 40000 : 0);
+  if (above == Above::inert) worlds::put_inert(start, 0, 2, 0);
+  if (above == Above::solid) worlds::put_solid(start, 0, 2, 0);
+  Stages stages;
+  make_excess(design, make_stage, stages);
+  auto tap = std::make_unique<Tap>(design);
+  const Tap& seen = *tap;
+  stages.push_back(std::move(tap));
+  StageRun run;
+  run_stages(design, stages, step::Moment(0), nullptr, start, run);
+  EXPECT_EQ(seen.at(0, 0, 0).in_run, 1);
+  EXPECT_EQ(seen.at(0, 0, 0).shut, seen.at(0, 1, 0).shut) << "one cell of a run is, the other is not";
+  return seen.at(0, 0, 0).shut == 1;
+}
+
+// ONE / 64 is 64.
+TEST(ViscousStages, ARunIsShutIfFullUnderACeiling) {
+  for (const bool hot : {false, true}) {
+    for (const Above above : {Above::border, Above::inert, Above::solid}) {
+      for (const std::int32_t excess : {-64, -1, 0, 1, 64})
+        EXPECT_TRUE(shows_shut(excess, above, hot)) << excess << ", " << static_cast<int>(above);
+      for (const std::int32_t excess : {-4000, -65, 65, 9000})
+        EXPECT_FALSE(shows_shut(excess, above, hot)) << excess << ", " << static_cast<int>(above);
+    }
+    for (const std::int32_t excess : {-64, 0, 64})
+      EXPECT_FALSE(shows_shut(excess, Above::air, hot)) << excess;
+  }
+}
+
+// A run of one cell and one of two stand side by side under inert cells, with a drop of a whole cell. Both
+// are shut: nothing flows. Without 65 units the higher one is not shut, and gives.
+TEST(ViscousStages, ShutRunsGiveEachOtherNothing) {
+  const auto given = [](std::int32_t lacking) {
+    const Design design = bed_design({2, 3, 1}, 8192);
+    state::Volume start(design.shape.grid);
+    worlds::put(start, 0, 0, 0, 4096, 0, 40000);
+    worlds::put_inert(start, 0, 1, 0);
+    worlds::put(start, 1, 0, 0, 4096, 0, 40000);
+    worlds::put(start, 1, 1, 0, 4096 - lacking, 0, 40000);
+    worlds::put_inert(start, 1, 2, 0);
+    Stages stages;
+    make_both(design, make_stage, stages);
+    StageRun run;
+    const state::Volume found = run_stages(design, stages, step::Moment(0), nullptr, start, run);
+    return found.amount[found.at(0, 0, 0)] - 4096;
+  };
+  EXPECT_EQ(given(0), 0);
+  EXPECT_EQ(given(64), 0);
+  EXPECT_GT(given(65), 100);
 }
 
 // Liquid of 2048 on a full solid flows to the air above a solid of 1024, by one axis. The beds are 512 and

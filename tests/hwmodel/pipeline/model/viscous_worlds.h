@@ -15,6 +15,14 @@ struct ViscousWorld {
         simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                    worlds::implementation("reference")) {}
 
+  // A world of vaults, instead of a hostile volume.
+  static ViscousWorld of_vaults(worlds::Random& random, const state::Grid& grid, int lanes) {
+    const Design design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}};
+    state::Volume start(grid);
+    worlds::put_vaults(random, start, design.hot());
+    return {design, start};
+  }
+
   ViscousWorld(const Design& the_design, const state::Volume& start)
       : design(the_design), simulation(design.parameters, start, worlds::implementation("reference")) {}
 

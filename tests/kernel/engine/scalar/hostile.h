@@ -155,6 +155,26 @@ inline void put_layers(Random& random, Volume& v, int x, int z, bool hot) {
   }
 }
 
+// Fills a grid with liquid up to ceilings of many heights. Columns lack or have up to ONE / 64 too much, or
+// one unit more. Few have no ceiling, and that of some is the border.
+inline void put_vaults(Random& random, Volume& v, bool hot) {
+  v = Volume(v.grid);
+  const auto heat = [&] { return hot ? random.below(65536) : 0; };
+  const auto wall = [&](int x, int y, int z) {
+    if (random.one_in(2)) return put_solid(v, x, y, z, random.between(1, kOne), heat());
+    put_inert(v, x, y, z, random.any({0, 1024, 2048, 4095}));
+  };
+  for (int z = 0; z < v.grid.z; ++z)
+    for (int x = 0; x < v.grid.x; ++x) {
+      const int bottom = random.one_in(3) ? random.below(std::min(3, v.grid.y)) : 0;
+      const int top = random.between(bottom + 1, v.grid.y), odd = random.between(bottom, top - 1);
+      const std::int32_t excess = random.any({-65, -64, -9, 0, 0, 9, 64, 65});
+      for (int y = 0; y < bottom; ++y) wall(x, y, z);
+      for (int y = bottom; y < top; ++y) put(v, x, y, z, kOne + (y == odd ? excess : 0), 0, heat());
+      if (top < v.grid.y && !random.one_in(8)) wall(x, top, z);
+    }
+}
+
 // Takes matter and obstacles out of half of all pieces of 16 cells along x. Then empty vectors lie beside,
 // above and in front of others.
 inline void thin_out(Random& random, Volume& v) {
