@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernel/automaton/state/connectivity.h"
 #include "kernel/engine/cpu/workers.h"
+#include "kernel/engine/scalar/pieces.h"
 #include "kernel/engine/scalar/substeps.h"
 #include "kernel/engine/visibility/providers.h"
 
@@ -94,9 +96,24 @@ void Simulation::begin_step() {
     uploaded_ = true;
   }
   substep_ = 0;
+  if (parameters_.pieces.fall) let_pieces_fall();
   if (parameters_.heat.is_visibility_step(step_number())) find_irradiance();
   volume_.changed.begin();
   if (host_ != nullptr) cadence_ = count_substeps();  // a device counts its own
+}
+
+void Simulation::let_pieces_fall() {
+  volume_.changed.begin();
+  if (host_ != nullptr) {
+    untold_ |= host_->let_pieces_fall(step_number(), volume_);
+    return;
+  }
+  if (behind_) device_->download_masks(volume_);
+  if (state::loose_solids(volume_).count() == 0) return;
+  fetch();
+  if (!scalar::let_pieces_fall(parameters_.pieces, step_number(), volume_)) return;
+  device_->upload(volume_, ledger_);
+  untold_ = true;
 }
 
 // Masks that a device has sent without the rest of its state count as changed everywhere.

@@ -85,6 +85,7 @@ class Simulation {
  private:
   void make_irradiance();
   void make_stepper();
+  void let_pieces_fall();
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
   step::Cadence count_substeps() const;

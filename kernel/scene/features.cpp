@@ -18,6 +18,7 @@ constexpr Feature kFeatures[] = {
     {"air", [](P p) { return p.heat.air; }},
     {"convection", [](P p) { return p.heat.convection > 0; }},
     {"latent_heat", [](P p) { return p.material.latent_heat > 0; }},
+    {"pieces", [](P p) { return p.pieces.fall; }},
     {"vent", [](P p) { return !p.vents.empty(); }},
     {"drain", [](P p) { return !p.drains.empty(); }},
     {"open_border", [](P p) { return p.open_border; }},

@@ -68,6 +68,7 @@ state::Grid read_settings(Reader& root, Scene& scene) {
   const state::Grid grid = read_grid(root, scene.parameters);
   read_run(root, scene);
   scene.parameters.material = read_material(root);
+  scene.parameters.pieces = read_pieces(root);
   scene.parameters.heat = read_heat(root, grid.y, scene.warnings);
   scene.parameters.vents = read_vents(root);
   scene.parameters.drains = read_drains(root);

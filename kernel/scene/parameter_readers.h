@@ -11,6 +11,7 @@
 namespace voxmelt::scene {
 
 rule::Material read_material(Reader& root);  // [material]
+rule::Pieces read_pieces(Reader& root);      // [pieces]
 // Reads [heat], [heat.air] and [[heat_source]].
 rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::HeatSource> read_heat_sources(Reader& root);  // [[heat_source]] alone

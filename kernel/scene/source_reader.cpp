@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kForever = 0xFFFFFFFF;
 constexpr double kLargestRadius = 8192;
+constexpr std::int32_t kMostStepsPerCell = 1024;
 
 rule::Region read_region(Reader& reader) {
   const Vec3 at = reader.vector<3>("at", coordinate());
@@ -48,6 +50,18 @@ rule::Material read_material(Reader& root) {
   material.latent_heat = static_cast<rule::Temperature>(std::min<int>(to_temperature(latent_heat), most));
   reader->finish();
   return material;
+}
+
+rule::Pieces read_pieces(Reader& root) {
+  rule::Pieces pieces;
+  std::optional<Reader> reader = root.table("pieces");
+  if (!reader) return pieces;
+  pieces.fall = reader->flag("fall", true);
+  pieces.in_liquid = reader->integer("in_liquid", 1, kMostStepsPerCell, 1);
+  const double density = reader->number("density", at_least(1.0 / rule::kDensityOne).at_most(1), 1.0);
+  pieces.density = std::lround(density * rule::kDensityOne);
+  reader->finish();
+  return pieces;
 }
 
 std::vector<rule::Vent> read_vents(Reader& root) {

@@ -178,10 +178,19 @@ struct Flow {
   std::uint16_t mobility_rate = 0;                 // 1/64 octave over the range of temperatures
 };
 
+// Solid pieces that nothing holds fall.
+inline constexpr std::int64_t kDensityOne = 65536;
+struct Pieces {
+  bool fall = false;
+  std::int32_t in_liquid = 1;          // steps per cell
+  std::int64_t density = kDensityOne;  // over the liquid's, 1/65536; kDensityOne never floats
+};
+
 struct Parameters {
   std::uint64_t seed = 1;
   Heat heat;
   Material material;
+  Pieces pieces;
   std::vector<Vent> vents;
   std::vector<Drain> drains;
   bool open_border = false;  // all liquid of the outermost cells along x and z leaves, after the drains

@@ -51,7 +51,7 @@ void seed(const Volume& volume, int y, int z, std::span<std::uint64_t> reached) 
 
 }  // namespace
 
-std::int64_t count_detached(const Volume& volume) {
+BitPlane loose_solids(const Volume& volume) {
   const Grid g = volume.grid;
   BitPlane attached(g);
   std::vector<std::pair<int, int>> news;  // rows that have reached more than their neighbours know
@@ -90,7 +90,13 @@ std::int64_t count_detached(const Volume& volume) {
     if (z > 0) tell(y, z - 1);
     if (z + 1 < g.z) tell(y, z + 1);
   }
-  return volume.solid.count() - attached.count();
+  for (int z = 0; z < g.z; ++z)
+    for (int y = 0; y < g.y; ++y) {
+      const Row solid = volume.solid.row(y, z);
+      const std::span<std::uint64_t> row = attached.row(y, z);
+      for (std::size_t w = 0; w < row.size(); ++w) row[w] = solid[w] & ~row[w];
+    }
+  return attached;
 }
 
 }  // namespace voxmelt::state

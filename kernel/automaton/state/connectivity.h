@@ -1,14 +1,17 @@
-// The count of detached solids tells if parts of the model no longer stand on anything.
+// Solids are held, or they no longer stand on anything.
 #pragma once
 
 #include <cstdint>
 
+#include "kernel/automaton/state/bit_plane.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::state {
 
-// Counts the solid cells without a path of face-adjacent solid cells to an inert cell or to the grid's
+// Finds the solid cells without a path of face-adjacent solid cells to an inert cell or to the grid's
 // bottom.
-std::int64_t count_detached(const Volume& volume);
+BitPlane loose_solids(const Volume& volume);
+
+inline std::int64_t count_detached(const Volume& volume) { return loose_solids(volume).count(); }
 
 }  // namespace voxmelt::state

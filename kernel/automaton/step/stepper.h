@@ -38,6 +38,10 @@ class Stepper {
 
 class HostStepper : public Stepper {
  public:
+  // Lets loose pieces fall, as the first thing in a step (docs/automaton.md, section 15). It tells if a cell
+  // has moved. The run loop calls it only in scenes with such pieces.
+  virtual bool let_pieces_fall(std::uint32_t /*step*/, state::Volume& /*volume*/) { return false; }
+
   // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume.
   // `irradiance` is null when the scene has no radiation. After a phase with `moment.unseen` the volume and
   // the books may be those before it, until the next phase has run.

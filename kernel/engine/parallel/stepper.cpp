@@ -80,6 +80,23 @@ simd::View Stepper::view_of(state::Volume& volume) {
   return view;
 }
 
+bool Stepper::let_pieces_fall(std::uint32_t step, state::Volume& volume) {
+  const simd::View view = view_of(volume);
+  const FallOfPieces how{static_cast<std::uint32_t>(parameters_.pieces.in_liquid),
+                         parameters_.pieces.density};
+  const state::ChangedRows& rows = pieces_.fall(how, step, volume);
+  if (rows.empty()) return false;
+  changed_.clear();
+  for (const state::ChangedRow& row : rows) changed_.edit(row.z)[row.y >> view.tile_shift] |= row.words;
+  note_matter(changed_);
+  refresh(view, changed_, *walls_);
+  if (sides_) refresh(view, changed_, *sides_);
+  dirty_.add(changed_);
+  if (heat_) heat_->note(changed_);
+  if (viscous_) viscous_->note(changed_);
+  return true;
+}
+
 void Stepper::tell_irradiance(const state::ChangedRows& changed) {
   if (heat_) heat_->note_light(changed);
   knows_light_ = true;

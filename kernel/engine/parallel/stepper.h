@@ -9,6 +9,7 @@
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/cpu/instruction_set.h"
 #include "kernel/engine/parallel/heat_flow.h"
+#include "kernel/engine/parallel/loose_pieces.h"
 #include "kernel/engine/parallel/paper_flow.h"
 #include "kernel/engine/parallel/viscous_flow.h"
 #include "kernel/engine/parallel/walls.h"
@@ -22,6 +23,7 @@ class Stepper final : public step::HostStepper {
 
   void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
+  bool let_pieces_fall(std::uint32_t step, state::Volume& volume) override;
   void tell_irradiance(const state::ChangedRows& changed) override;
   void change_sources(const rule::Parameters& parameters) override;
   void tell_changes(state::ChangedBricks& changed) override;
@@ -46,6 +48,7 @@ class Stepper final : public step::HostStepper {
   cpu::Workers workers_;
   int rows_;                            // rows of the grid
   std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, if gravity asks for them
+  LoosePieces pieces_;
   std::optional<HeatFlow> heat_;
   bool knows_light_ = false;  // the new irradiance of this step has been told
   std::optional<PaperFlow> paper_;

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "kernel/engine/scalar/pieces.h"
+
 namespace voxmelt::scalar {
 
 Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
@@ -20,6 +22,10 @@ Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     limit_ = decltype(limit_)(grid);
     filled_ = relaxed_ = decltype(filled_)(grid);
   }
+}
+
+bool Reference::let_pieces_fall(std::uint32_t step, state::Volume& volume) {
+  return scalar::let_pieces_fall(parameters_.pieces, step, volume);
 }
 
 void Reference::run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance,

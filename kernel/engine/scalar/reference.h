@@ -18,6 +18,7 @@ class Reference final : public step::HostStepper {
 
   void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
+  bool let_pieces_fall(std::uint32_t step, state::Volume& volume) override;
   void change_sources(const rule::Parameters& parameters) override { parameters_ = parameters; }
 
   // Returns the directions that each liquid cell gave to, one bit each. It is for the paper law, after

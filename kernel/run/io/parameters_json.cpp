@@ -118,6 +118,10 @@ std::string parameters_json(const rule::Parameters& parameters, state::Grid grid
                  {"material",
                   {{"melting_point", parameters.material.melting_point},
                    {"latent_heat", parameters.material.latent_heat}}},
+                 {"pieces",
+                  {{"fall", parameters.pieces.fall},
+                   {"in_liquid", parameters.pieces.in_liquid},
+                   {"density", parameters.pieces.density}}},
                  {"heat", heat_json(parameters.heat)},
                  {"flow", flow_json(parameters.flow)}};
   result.update(regions_json(parameters));

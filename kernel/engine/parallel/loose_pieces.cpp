@@ -1,0 +1,221 @@
+#include "kernel/engine/parallel/loose_pieces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "kernel/automaton/state/connectivity.h"
+#include "kernel/engine/parallel/local_parts.h"
+
+namespace voxmelt::parallel {
+namespace {
+
+using Words = std::span<const std::uint64_t>;
+
+// Is a set of cells of a row, x0 <= x < x1, that are all loose.
+struct Run {
+  int x0, x1, y, z;
+  std::size_t piece;  // index of a run of the same piece; of itself at its root
+};
+
+std::size_t root_of(std::vector<Run>& runs, std::size_t i) {
+  while (runs[i].piece != i) i = runs[i].piece = runs[runs[i].piece].piece;
+  return i;
+}
+
+void append_runs(Words row, int y, int z, std::vector<Run>& runs) {
+  bool goes_on = false;  // the last run reaches the end of the word before
+  for (std::size_t w = 0; w < row.size(); ++w) {
+    const int x = static_cast<int>(64 * w);
+    for (std::uint64_t left = row[w]; left != 0;) {
+      const int begin = std::countr_zero(left), end = begin + std::countr_one(left >> begin);
+      if (begin == 0 && goes_on)
+        runs.back().x1 = x + end;
+      else
+        runs.push_back({x + begin, x + end, y, z, runs.size()});
+      left = end == 64 ? 0 : left & ~std::uint64_t{0} << end;
+    }
+    goes_on = row[w] >> 63 != 0;
+  }
+}
+
+// Joins the runs of two rows that touch. Both are in order.
+void join(std::vector<Run>& runs, std::size_t a, std::size_t a_end, std::size_t b, std::size_t b_end) {
+  while (a < a_end && b < b_end) {
+    if (runs[a].x0 < runs[b].x1 && runs[b].x0 < runs[a].x1) {
+      const std::size_t one = root_of(runs, a), other = root_of(runs, b);
+      runs[std::max(one, other)].piece = std::min(one, other);
+    }
+    if (runs[a].x1 < runs[b].x1)
+      ++a;
+    else
+      ++b;
+  }
+}
+
+// Finds the runs of all loose cells, [z][y], and joins those of a piece.
+std::vector<Run> runs_of(const state::BitPlane& loose, state::Grid grid) {
+  std::vector<Run> runs;
+  std::vector<std::size_t> below(static_cast<std::size_t>(grid.y) + 1), here(below.size());  // of a slice
+  for (int z = 0; z < grid.z; ++z) {
+    for (int y = 0; y < grid.y; ++y) {
+      const auto at = static_cast<std::size_t>(y);
+      here[at] = runs.size();
+      append_runs(loose.row(y, z), y, z, runs);
+      here[at + 1] = runs.size();
+      if (y > 0) join(runs, here[at - 1], here[at], here[at], here[at + 1]);
+      if (z > 0) join(runs, below[at], below[at + 1], here[at], here[at + 1]);
+    }
+    below.swap(here);
+  }
+  return runs;
+}
+
+struct Layer {
+  std::int64_t cells = 0, open = 0, full = 0, feet = 0, wet = 0;
+  Layer& operator+=(const Layer& other) {
+    cells += other.cells;
+    open += other.open;
+    full += other.full;
+    feet += other.feet;
+    wet += other.wet;
+    return *this;
+  }
+};
+
+Layer look(const state::Volume& volume, const Run& run) {
+  constexpr std::uint16_t kHalf = 2048;
+  const state::Grid grid = volume.grid;
+  Layer layer;
+  layer.cells = run.x1 - run.x0;
+  const auto side = [&](int x, int z) {
+    if (!grid.contains(x, run.y, z) || volume.solid.test(x, run.y, z)) return;
+    ++layer.open;
+    if (volume.amount[volume.at(x, run.y, z)] >= kHalf) ++layer.full;
+  };
+  side(run.x0 - 1, run.z);
+  side(run.x1, run.z);
+  for (int x = run.x0; x < run.x1; ++x) {
+    side(x, run.z - 1);
+    side(x, run.z + 1);
+    if (volume.solid.test(x, run.y - 1, run.z)) continue;
+    ++layer.feet;
+    if (volume.amount[volume.at(x, run.y - 1, run.z)] >= kHalf) ++layer.wet;
+  }
+  return layer;
+}
+
+// Tells if a piece moves, by its layers from the lowest on.
+bool moves(const FallOfPieces& how, std::uint32_t step, std::span<const Layer> layers) {
+  Layer all;
+  std::int64_t sunk = 0;
+  bool under = true;
+  for (const Layer& layer : layers) {
+    all += layer;
+    under = under && layer.open > 0 && 2 * layer.full >= layer.open;
+    if (under) sunk += layer.cells;
+  }
+  if (2 * all.wet < all.feet) return true;
+  if (step % how.in_liquid != 0) return false;
+  return how.density == 65536 || 65536 * sunk < how.density * all.cells;
+}
+
+template <class Value>
+void put(Value& to, Value value) {  // writes memory only if something changes
+  if (to != value) to = value;
+}
+
+}  // namespace
+
+// Compares the solids with those known to be held. It tells if the change may have parted a piece.
+bool LoosePieces::may_part(const state::Volume& volume) {
+  const state::Grid grid = volume.grid;
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y) {
+      const Words now = volume.solid.row(y, z);
+      const std::span<std::uint64_t> known = known_.row(y, z);
+      for (std::size_t w = 0; w < known.size(); ++w) {
+        if (now[w] == known[w]) continue;
+        if ((now[w] & ~known[w]) != 0) return true;  // a solid is new
+        for (std::uint64_t gone = known[w] & ~now[w]; gone != 0; gone &= gone - 1) {
+          known[w] &= ~(gone & -gone);
+          const int x = static_cast<int>(64 * w) + std::countr_zero(gone);
+          if (!is_locally_one(known_, volume.inert, grid, x, y, z)) return true;
+        }
+      }
+    }
+  return false;
+}
+
+const state::ChangedRows& LoosePieces::fall(const FallOfPieces& how, std::uint32_t step,
+                                            state::Volume& volume) {
+  changed_.clear();
+  if (!known_.empty() && volume.inert == inert_ && !may_part(volume)) return changed_;
+  ++searches_;
+  loose_ = state::loose_solids(volume);
+  if (loose_.count() == 0) {
+    known_ = volume.solid;
+    inert_ = volume.inert;
+    return changed_;
+  }
+  known_ = {};
+  mark_moving(how, step, volume);
+  turn_columns(volume);
+  return changed_;
+}
+
+void LoosePieces::mark_moving(const FallOfPieces& how, std::uint32_t step, const state::Volume& volume) {
+  moving_ = state::BitPlane(volume.grid);
+  std::vector<Run> runs = runs_of(loose_, volume.grid);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].piece = root_of(runs, i);
+  std::sort(runs.begin(), runs.end(),
+            [](const Run& a, const Run& b) { return a.piece != b.piece ? a.piece < b.piece : a.y < b.y; });
+  std::vector<Layer> layers;
+  for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+    layers.clear();
+    for (end = begin; end < runs.size() && runs[end].piece == runs[begin].piece; ++end) {
+      if (end == begin || runs[end].y != runs[end - 1].y) layers.emplace_back();
+      layers.back() += look(volume, runs[end]);
+    }
+    if (!moves(how, step, layers)) continue;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int x = runs[i].x0; x < runs[i].x1; ++x) moving_.set(x, runs[i].y, runs[i].z, true);
+  }
+}
+
+// Turns the cells of each set that follow each other in a column, and the one below, round once.
+void LoosePieces::turn_columns(state::Volume& volume) {
+  const state::Grid grid = volume.grid;
+  const auto swap_with_below = [&](int x, int y, int z) {
+    const state::Slot at = volume.at(x, y, z), below = volume.at(x, y - 1, z);
+    for (auto* field : {&volume.amount, &volume.energy, &volume.heat}) {
+      const std::uint16_t upper = (*field)[at], lower = (*field)[below];
+      put((*field)[at], lower);
+      put((*field)[below], upper);
+    }
+  };
+  // From below on, each row changes places with what has come up to it.
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 1; y < grid.y; ++y) {
+      const Words moving = moving_.row(y, z);
+      std::uint64_t words = 0;
+      for (std::size_t w = 0; w < moving.size(); ++w) {
+        if (moving[w] == 0) continue;
+        words |= std::uint64_t{1} << w;
+        for (std::uint64_t left = moving[w]; left != 0; left &= left - 1)
+          swap_with_below(static_cast<int>(64 * w) + std::countr_zero(left), y, z);
+        for (auto* plane : {&volume.solid, &volume.liquid}) {
+          std::uint64_t &upper = plane->row(y, z)[w], &lower = plane->row(y - 1, z)[w];
+          const std::uint64_t both = (upper ^ lower) & moving[w];
+          upper ^= both;
+          lower ^= both;
+        }
+      }
+      if (words == 0) continue;
+      changed_.push_back({y, z, words});
+      changed_.push_back({y - 1, z, words});
+    }
+}
+
+}  // namespace voxmelt::parallel
