@@ -109,6 +109,11 @@ const std::vector<Case>& cases() {
        "scene.toml:10:8: error: drain.0.rate = 2 exceeds 1, a full cell per cell and step"},
       {kBox + "[heat.air]\nexchange = 1.5e-5\nbottom = 1\n",
        "scene.toml:8:12: error: heat.air.exchange = 1.5e-05 is below 1.52587890625e-05"},
+      {kBox + "[pieces]\nin_liquid = 1025\n",
+       "scene.toml:8:13: error: pieces.in_liquid = 1025 is outside 1..1024"},
+      {kBox + "[pieces]\ndensity = 1.5\n", "scene.toml:8:11: error: pieces.density = 1.5 is above 1"},
+      {kBox + "[pieces]\ndensity = 0\n",
+       "scene.toml:8:11: error: pieces.density = 0 is below 1.52587890625e-05"},
       // Keys for flow are wrong.
       {kBox + "[flow]\nlaw = \"honey\"\n",
        "scene.toml:8:7: error: flow.law = \"honey\" is not one of paper, viscous"},

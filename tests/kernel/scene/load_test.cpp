@@ -312,6 +312,22 @@ TEST(Load, TheBorder) {
   EXPECT_TRUE(load_settings(open.settings, "a checkpoint").parameters.open_border);
 }
 
+TEST(Load, PiecesFallIfTheSceneNamesThem) {
+  const SceneFolder folder;
+  const auto pieces = [&](const std::string& table) {
+    return folder.load_text(kLeast + table).parameters.pieces;
+  };
+  EXPECT_FALSE(pieces("").fall);
+  EXPECT_FALSE(pieces("[pieces]\nfall = false\n").fall);
+  const rule::Pieces usual = pieces("[pieces]\n");
+  EXPECT_TRUE(usual.fall);
+  EXPECT_EQ(usual.in_liquid, 1);
+  EXPECT_EQ(usual.density, 65536);
+  const rule::Pieces ice = pieces("[pieces]\nin_liquid = 7\ndensity = 0.75\n");
+  EXPECT_EQ(ice.in_liquid, 7);
+  EXPECT_EQ(ice.density, 49152);
+}
+
 TEST(Load, SubstepsOfTheViscousLaw) {
   const SceneFolder folder;
   const auto law = [&](const std::string& keys) {

@@ -128,6 +128,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
   p.vents = {{}};
   p.drains = {{}};
   p.open_border = true;
+  p.pieces = {true, 321, 43210};
   const std::string json = parameters_json(p, {3, 4, 5}, 17);
   for (const char* key : {"grid",
                           "border",
@@ -136,6 +137,9 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "material",
                           "melting_point",
                           "latent_heat",
+                          "pieces",
+                          "in_liquid",
+                          "density",
                           "heat",
                           "enabled",
                           "neighbours",
@@ -208,8 +212,9 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                  "{\"kind\":\"sky\",\"keys\":[{\"step\":6,\"power\":12}]}]"),
       std::string::npos)
       << dense;
-  for (const char* value : {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623",
-                            "\"law\": \"paper\"", "\"border\": \"open\""})
+  for (const char* value :
+       {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623", "\"law\": \"paper\"",
+        "\"border\": \"open\"", "\"in_liquid\": 321", "\"density\": 43210"})
     EXPECT_NE(json.find(value), std::string::npos) << value;
 }
 
