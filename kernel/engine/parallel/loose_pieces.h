@@ -1,5 +1,5 @@
-// Loose pieces of solid fall (docs/automaton.md, section 15). Whether any is loose is asked only where a cell
-// that has gone may have parted a piece. The code is free of kernel/automaton/rule on purpose.
+// Loose pieces of solid fall (docs/automaton.md, section 15). All solids are searched for them only after a
+// cell has gone that may have parted a piece. The code is free of kernel/automaton/rule on purpose.
 #pragma once
 
 #include <cstdint>

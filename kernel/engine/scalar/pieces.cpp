@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "kernel/automaton/rule/pieces.h"
@@ -51,7 +50,7 @@ rule::PieceCounts count(const state::Volume& volume, const Piece& piece) {
   for (const Place& at : piece.cells) {
     Layer& layer = layers[at.y];
     ++layer.cells;
-    // What is beside or below a loose piece, and no part of it, is open.
+    // A cell beside or below a loose piece is open if it is no part of it.
     if (!volume.solid.test(at.x, at.y - 1, at.z)) {
       ++counts.feet;
       counts.wet += volume.amount[volume.at(at.x, at.y - 1, at.z)] >= rule::kWet;

@@ -1,6 +1,6 @@
 // Pieces that nothing holds fall, in every implementation: by hand, and alike in random worlds.
+#include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
