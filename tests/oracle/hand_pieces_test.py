@@ -19,7 +19,8 @@ RULES = 'flow = { law = "paper", fall = { factor = 0, minimum = 0 }, paper = { s
 CELLS = {
     ".": ("air", 0, 0, 0), "#": ("inert", 2048, 0, 0),
     "A": ("solid", 4096, 0, 100), "B": ("solid", 3000, 0, 200), "C": ("solid", 1, 0, 300),
-    "o": ("liquid", 1000, 500, 30000), "p": ("liquid", 2048, 0, 7), "q": ("liquid", 4096, 11, 9), "r": ("liquid", 2047, 0, 11),
+    "o": ("liquid", 1000, 500, 30000), "p": ("liquid", 2048, 0, 7), "r": ("liquid", 2047, 0, 11),
+    "q": ("liquid", 4096, 11, 9),
 }
 POOL = ".... .... qqqq qqqq qqqq"  # a slice in front of the cube, and one behind it
 
@@ -60,7 +61,11 @@ CASES = [
     # One of the two open sides is full: 65536 x 1 >= 65535 x 1.
     ("a piece floats that is wet on half of its sides", "in_liquid = 1, density = 0.99999", "closed", 0,
      ["... pAr .p.", "... pAr .p."], (0, 0, 1)),
-    ("a piece of density 1 never floats", "in_liquid = 1, density = 1.0", "closed", 0, ["... pAr .p.", "... ppr .A.", "... ppr .A."], (0, 1, 0)),
+    # The layer of A is not under the surface, and so that of B is not either.
+    ("a wet layer above a dry one does not float", "in_liquid = 1, density = 0.25", "closed", 0,
+     ["... qBq .A. .q.", "... qqq .B. .A."], (0, 1, 0)),
+    ("a piece of density 1 never floats", "in_liquid = 1, density = 1.0", "closed", 0,
+     ["... pAr .p.", "... ppr .A.", "... ppr .A."], (0, 1, 0)),
 ]
 
 
