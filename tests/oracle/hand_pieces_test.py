@@ -4,7 +4,7 @@ the oracle find the same.
 
   hand_pieces_test.py VOXMELT ORACLE
 
-No liquid flows and no heat is conducted here, so that nothing but pieces moves.
+No liquid flows and no heat is conducted here, so that nothing but pieces moves. D(0) = 0 and D(2) = 16384.
 """
 import subprocess
 import sys
@@ -15,10 +15,14 @@ sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.in
 from foreign_fields import CODES, write_fields
 
 RULES = 'flow = { law = "paper", fall = { factor = 0, minimum = 0 }, paper = { share = 0 } }\nheat = { gamma = 0 }\n'
+# A sun straight above, that gives each cell it sees 1258 of irradiance, for two steps.
+SUN = RULES.replace("gamma = 0", "gamma = 0, visibility_every = 2") + \
+      'heat_source = [{ kind = "directional", direction = [0, 1, 0], power = 0.0012 }]\n'
 # Kind, amount, energy and heat of the cells in the drawings. Feet are wet from 2048 on.
 CELLS = {
     ".": ("air", 0, 0, 0), "#": ("inert", 2048, 0, 0),
     "A": ("solid", 4096, 0, 100), "B": ("solid", 3000, 0, 200), "C": ("solid", 1, 0, 300),
+    "D": ("solid", 4096, 0, 178), "E": ("solid", 4096, 0, 256),
     "o": ("liquid", 1000, 500, 30000), "p": ("liquid", 2048, 0, 7), "r": ("liquid", 2047, 0, 11),
     "q": ("liquid", 4096, 11, 9),
 }
@@ -30,8 +34,9 @@ def cube(*slices):
     return [" / ".join((POOL, one, one, POOL)) for one in slices]
 
 
-# Name, pieces, border, first step, drawings, and how often pieces fall, wade and float by then. A drawing has its rows
-# from the top down, and slashes between the slices z = 0, 1, ... The first drawing is the start; a step leads to the next.
+# Name, pieces, border, first step, drawings, how often pieces fall, wade and float by then, and other rules for some. A
+# drawing has its rows from the top down, and slashes between the slices z = 0, 1, ... The first one is the start; a step
+# leads to the next.
 CASES = [
     ("a plate of one cell falls by one cell per step, and lands", "", "closed", 0,
      ["A . . .", ". A . .", ". . A .", ". . . A", ". . . A"], (3, 0, 0)),
@@ -66,6 +71,9 @@ CASES = [
      ["... qBq .A. .q.", "... qqq .B. .A."], (0, 1, 0)),
     ("a piece of density 1 never floats", "in_liquid = 1, density = 1.0", "closed", 0,
      ["... pAr .p.", "... ppr .A.", "... ppr .A."], (0, 1, 0)),
+    # Step 0 warms A by 1258 / 16 in its new place, rounded down. It falls out of the light, and step 2 casts it anew.
+    ("irradiance is cast after the fall, and belongs to places", "", "closed", 0,
+     ["A . . .", ". D . .", ". . D .", ". . . E"], (3, 0, 0), SUN),
 ]
 
 
@@ -101,13 +109,13 @@ def drawn(fields, size):
     return " / ".join(" ".join(rows[z * ny:(z + 1) * ny][::-1]) for z in range(nz))
 
 
-def write_scene(folder, drawing, pieces, border, first):
+def write_scene(folder, drawing, pieces, border, first, rules):
     size, cells = cells_of(drawing)
     (folder / "fields").mkdir()
     write_fields(folder / "fields", size, fields_of(cells))
     scene = folder / "scene.toml"
     scene.write_text(f'grid = {{ size = {size}, border = "{border}" }}\nstart = {{ fields = "fields", step = {first} }}\n'
-                     f"pieces = {{ {pieces} }}\n{RULES}")
+                     f"pieces = {{ {pieces} }}\n{rules}")
     return scene
 
 
@@ -121,8 +129,8 @@ def export(voxmelt, scene, steps, folder, *options):
 
 
 def offences_of(voxmelt, oracle, names, case, folder):
-    name, pieces, border, first, drawings, by_hand = case
-    scene = write_scene(folder, drawings[0], pieces, border, first)
+    name, pieces, border, first, drawings, by_hand, *rules = case
+    scene = write_scene(folder, drawings[0], pieces, border, first, *(rules or [RULES]))
     export(voxmelt, scene, 0, folder / "start")
     size, cells = cells_of(drawings[0])
     for steps, drawing in enumerate(drawings[1:], 1):
