@@ -33,6 +33,8 @@ class Fields:
         self.weights = [dice.random() for _ in range(4)]
         self.walls = dice.random() < 0.3  # isothermal ones
         self.layered, self.blocked = dice.random() < 0.5, dice.random() < 0.4
+        self.adrift = "pieces" in scene and dice.random() < 0.8
+        self.melts = melts
         self.fill()
 
     def one_of(self, values, low, high):
@@ -41,6 +43,32 @@ class Fields:
     def block(self):
         spans = [sorted(self.dice.randint(0, side) for _ in range(2)) for side in self.size]
         return spans, self.dice.choice(KINDS)
+
+    def body(self):
+        """Blocks of a solid that touches little, sometimes hollow and open below or above: a bell, or a bowl."""
+        corner = [self.dice.randint(0, side) for side in self.size]
+        corner[1] = self.dice.randint(min(2, self.size[1]), self.size[1])
+        sides = [self.dice.randint(1, 4) for _ in range(3)]
+        body = [(low, low + side) for low, side in zip(corner, sides)]
+        hollow = [(low + 1, high - 1) for low, high in body]
+        hollow[1] = self.dice.choice(((body[1][0], body[1][1] - 1), (body[1][0] + 1, body[1][1])))
+        blocks = [(hollow, self.dice.choice(("air", "liquid")))] if self.dice.random() < 0.3 else []
+        return [*blocks, (body, "solid")]
+
+    def drifting(self):
+        """Blocks: bodies in the air and in a pool, beside inert posts or none. Noise may lie around them, but no inert cell."""
+        whole = [(0, side) for side in self.size]
+        blocks = [block for _ in range(self.dice.randint(2, 8)) for block in self.body()]
+        for _ in range(self.dice.choice((0, 0, 1, 2))):
+            x, z = self.dice.randint(0, self.size[0]), self.dice.randint(0, self.size[2])
+            blocks.append(([(x, x + 1), (0, self.dice.randint(1, self.size[1])), (z, z + 1)], "inert"))
+        if self.dice.random() < 0.7:
+            blocks.append(([whole[0], (0, self.dice.randint(0, self.size[1])), whole[2]], "liquid"))
+        if self.dice.random() < 0.7:
+            blocks.append((whole, "air"))
+        self.weights[1] /= 4
+        self.weights[3] = 0
+        return blocks
 
     def kind(self, x, y, z, blocks):
         """Noise, often above a floor, often with blocks of one kind in it."""
@@ -52,7 +80,7 @@ class Fields:
         return self.dice.choices(KINDS, self.weights)[0]
 
     def fill(self):
-        blocks = [self.block() for _ in range(6 if self.blocked else 0)]
+        blocks = self.drifting() if self.adrift else [self.block() for _ in range(6 if self.blocked else 0)]
         nx, ny, nz = self.size
         for z in range(nz):
             for y in range(ny):
@@ -67,6 +95,8 @@ class Fields:
             heat = self.one_of(self.heats, 0, HEAT_MOST) if self.walls and amount else 0
         if kind in ("solid", "liquid"):
             amount, heat = amount or self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
+        if kind == "solid" and self.adrift and self.dice.random() < 0.9:
+            heat = self.dice.randint(0, max(0, self.melts - 1))  # else bodies melt at once
         if kind == "liquid":
             energy = self.dice.choice((0, 1, amount - 1, amount, self.dice.randint(0, amount)))
         cell = {"amount": amount or 0, "energy": min(energy, amount or 0), "heat": heat}

@@ -11,7 +11,7 @@ sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.in
 from foreign_keys import KEYS, TINY
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/scenes.md"
-TABLES = {"The run": [], "Heat": ["heat"], "Flow": ["flow"], "Vents, drains": ["vent", "drain"]}  # by section
+TABLES = {"The run": [], "Heat": ["heat"], "Flow": ["flow"], "Pieces": ["pieces"], "Vents, drains": ["vent", "drain"]}  # by section
 NO_RULE = {"title", "description", "extends", "run.steps", "run.frame_every", "start.fields"}
 HAS_ROWS = {"heat_source.keyframes"}  # a table: its keys have rows
 NOT_IN_A_TABLE = re.compile(r"heat_source\.keyframes\.|(solid|liquid|inert)\.")  # rows; the page states them elsewhere

@@ -23,7 +23,7 @@ class Maker:
     def __init__(self, seed):
         self.dice = random.Random(seed)
         self.wild = self.dice.choice((0.02, 0.06, 0.15))
-        self.wanted, self.end = ENDS[37 * seed % len(ENDS)]  # 37: neighbouring seeds take different keys
+        self.wanted, self.end = ENDS[41 * seed % len(ENDS)]  # 41: neighbouring seeds take different keys
         self.size = self.make_size()
         self.first = 0
 
@@ -78,6 +78,10 @@ class Maker:
         elif material.get("latent_heat", 0) > room:  # together at most 1
             material["latent_heat"] = max(0, math.floor(room * HEAT_MOST) - 1) / HEAT_MOST
         return material
+
+    def pieces(self):
+        """Without the key `fall`, pieces fall."""
+        return {**self.some("pieces", "in_liquid", "density", given=0.8), **self.some("pieces", "fall", given=0.1)}
 
     def heat(self):
         heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every", "rays_per_face")
@@ -167,6 +171,8 @@ class Maker:
         if not by_shapes:
             scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}
             self.first = scene["start"].get("step", 0)
+        if self.gives("pieces", 0.33):  # nearly all scenes have solids
+            scene["pieces"] = self.pieces()
         sources = self.gives("heat_source", 0.5)
         if sources or self.gives("heat", 0.7):
             scene["heat"] = self.heat()
@@ -202,7 +208,7 @@ def write_scene(seed, folder):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "scene.toml").write_text("".join(f"{key} = {toml(value)}\n" for key, value in scene.items()))
     if "start" in scene:
-        columns = scene["flow"]["law"] == "viscous" and maker.chance(0.5)
+        columns = scene["flow"]["law"] == "viscous" and maker.chance(0.2 if "pieces" in scene else 0.5)
         (Columns if columns else Fields)(scene, maker.dice).write(folder / "fields")
     return scene
 

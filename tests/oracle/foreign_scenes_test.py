@@ -50,13 +50,13 @@ def implementations(voxmelt):
 
 
 def of_oracle(oracle, start, steps, fields):
-    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; pairs relaxed, turned back, and shut."""
+    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; and what happens to pairs and pieces."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
     digests = [line for line in lines if line.startswith("step")]
     ledgers = {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
-    counters, pairs = (next([int(n) for n in line.split()[1:]] for line in lines if line.startswith(word))
-                         for word in ("counters", "pairs"))
-    return digests, ledgers, counters, pairs
+    counters, *moves = (next([int(n) for n in line.split()[1:]] for line in lines if line.startswith(word))
+                        for word in ("counters", "pairs", "pieces"))
+    return digests, ledgers, counters, moves
 
 
 def of_voxmelt(voxmelt, folder, steps, implementation, threads, caster):
@@ -90,8 +90,9 @@ def field(folder, name):
     return struct.unpack(f"<{(len(data) - begin) // 2}H", data[begin:])
 
 
-def events(scene, steps, digests, pairs, report, start, end):
+def events(scene, steps, digests, moves, report, start, end):
     """What may happen in a scene, by name, and whether it did in this one."""
+    pairs, pieces = moves
     first, side = scene.get("start", {}).get("step", 0), scene["grid"]["size"][0]
     moved = sum(abs(a - b) for a, b in zip(field(start, "amount"), field(end, "amount")))
     solids = [int(line.split()[7]) for line in (digests[0], digests[-1])]
@@ -113,6 +114,7 @@ def events(scene, steps, digests, pairs, report, start, end):
         "heads relax, sub-steps given": pairs[0] > 0 and substeps not in ("auto", None),
         "a relaxed pair flows back": pairs[1] > 0,
         "a shut pair would give": pairs[2] > 0,
+        "a piece falls": pieces[0] > 0, "a piece wades": pieces[1] > 0, "a piece floats": pieces[2] > 0,
         "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
         "several kinds of sources": len({s.get("kind", "point") for s in sources}) > 1,
         **{f"keyframes of a {s.get('kind', 'point')}": True for s in changing},
@@ -135,14 +137,14 @@ def run_scene(voxmelt, oracle, names, seed, folder):
     start, end = folder / "start", folder / "end"
     output(voxmelt, "export", folder / "scene.toml", "--steps", 0, "--out", start, "--quiet")
     for steps in lengths:
-        judge, judged, counters, pairs = of_oracle(oracle, start, steps, end)
+        judge, judged, counters, moves = of_oracle(oracle, start, steps, end)
         for name in names:
             mine, ledgers, report = of_voxmelt(voxmelt, folder, steps, name, 1 + seed % 3, CASTERS[seed // 3 % 3])
             compare(f"{name}, {steps} steps, digests", mine, judge)
             for ledger in LEDGERS:
                 compare(f"{name}, {steps} steps, ledger of {ledger} {list(report[ledger])}", ledgers[ledger], judged[ledger])
             compare(f"{name}, {steps} steps, counters {COUNTERS}", [int(report["limit"][key]) for key in COUNTERS], counters)
-    return list(uses(scene)), events(scene, steps, judge, pairs, report, start, end)
+    return list(uses(scene)), events(scene, steps, judge, moves, report, start, end)
 
 
 def offences(used, happened, scenes):

@@ -53,7 +53,7 @@ def parameters(size, step=0, neighbours=6, walls=True):
         "grid": size, "border": "closed", "step": step, "seed": 1, "material": {"melting_point": 20000, "latent_heat": 16000},
         "heat": {"enabled": True, "neighbours": neighbours, "weight_face": 8192, "weight_edge": 4096, "weight_corner": 2048,
                  "convection": 0, "walls": walls, "radiation": False, "air": False},
-        "vents": [], "drains": [],
+        "pieces": {"fall": False, "in_liquid": 1, "density": 65536}, "vents": [], "drains": [],
         "flow": {"law": "viscous", "fall": {"factor": 0, "wall_factor": 0, "minimum": 0, "hang": 0},
                  "viscous": {"mobility": 0, "yield": 0, "stiffness": 1, "substeps": 1, "substeps_max": 1, "stages_max": 1}, "thermal_viscosity": False}}
 

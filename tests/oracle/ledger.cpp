@@ -76,6 +76,10 @@ std::string pairs_line(const PairCounts& counts) {
   return line("pairs", {counts.relaxed, counts.back, counts.shut});
 }
 
+std::string pieces_line(const PieceCounts& counts) {
+  return line("pieces", {counts.falls, counts.wades, counts.floats});
+}
+
 Sum mass_held(const State& state) { return held_by(state).mass; }
 
 }  // namespace oracle

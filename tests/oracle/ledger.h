@@ -48,11 +48,18 @@ struct PairCounts {
   Sum relaxed = 0, back = 0, shut = 0;
 };
 
+// Counts how often a loose piece that does not wade moved, how often one that wades did, and how often one
+// stayed because it floats, at a step that `in_liquid` divides (section 15).
+struct PieceCounts {
+  Sum falls = 0, wades = 0, floats = 0;
+};
+
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
 std::string counters_line(const Counters& counters);
 std::string pairs_line(const PairCounts& counts);
+std::string pieces_line(const PieceCounts& counts);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

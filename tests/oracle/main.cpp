@@ -16,6 +16,7 @@ void run_step(State& state) {
   const Heat& rules = state.parameters.heat;
   state.offset = dither(state.step);
   state.mixture_offset = state.offset;
+  if (state.parameters.pieces.fall) pieces_fall(state);
   if (!state.parameters.paper_law) count_substeps(state);
   if (rules.enabled && rules.radiation && state.step % rules.visibility_every == 0) find_irradiance(state);
   source(state);
@@ -106,7 +107,7 @@ void run(const Options& options) {
   close_ledgers(state);
   if (options.ledger)
     std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << pairs_line(state.pair_counts)
-              << std::flush;
+              << pieces_line(state.piece_counts) << std::flush;
   if (!options.fields.empty()) {
     std::filesystem::create_directories(options.fields);
     write_fields(state, options.fields);

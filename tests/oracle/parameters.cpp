@@ -147,6 +147,14 @@ Heat read_heat(const Json& json, Int ny) {
   return heat;
 }
 
+PiecesFall read_pieces(const Json& json) {
+  PiecesFall pieces;
+  pieces.fall = yes(json, "fall");
+  pieces.in_liquid = integer(json, "in_liquid", 1, 1024);
+  pieces.density = integer(json, "density", 1, 65536);
+  return pieces;
+}
+
 PaperFlow read_paper(const Json& json) {
   PaperFlow paper;
   paper.neighbours = integer(json, "neighbours", 4, 8);
@@ -203,6 +211,7 @@ Parameters read_parameters(const std::string& path) {
   p.seed = read_seed(member(json, "seed"));
   p.melting_point = integer(member(json, "material"), "melting_point", 0, 65535);
   p.latent_heat = integer(member(json, "material"), "latent_heat", 0, 65535 - p.melting_point);
+  p.pieces = read_pieces(member(json, "pieces"));
   p.heat = read_heat(member(json, "heat"), p.grid[1]);
   p.vents = read_regions(member(json, "vents"), true);
   p.drains = read_regions(member(json, "drains"), false);

@@ -51,6 +51,11 @@ struct Heat {
   std::vector<Int> air_temperature;
 };
 
+struct PiecesFall {
+  bool fall = false;
+  Int in_liquid = 1, density = 65536;
+};
+
 struct Fall {
   Int factor = 0, wall_factor = 0, minimum = 0, hang = 0;
 };
@@ -84,6 +89,7 @@ struct Parameters {
   Int step = 0;
   std::uint64_t seed = 0;
   Int melting_point = 0, latent_heat = 0;
+  PiecesFall pieces;
   Heat heat;
   std::vector<Region> vents, drains;
   bool paper_law = true;

@@ -1,4 +1,5 @@
-// The state follows docs/automaton.md sections 1, 2 (open neighbours), 3 (end of a phase) and 15 (bounds).
+// The state follows docs/automaton.md sections 1, 2 (open neighbours) and 3 (end of a phase), and
+// docs/proofs.md (bounds).
 #include "state.h"
 
 #include "npy.h"

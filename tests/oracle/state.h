@@ -66,6 +66,7 @@ struct State {
   Ledgers ledgers;
   Counters counters;
   PairCounts pair_counts;
+  PieceCounts piece_counts;
 
   // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
@@ -129,6 +130,7 @@ struct Column {
 std::vector<Column> columns_with_liquid(const State& state);
 
 // These are the phases of section 3.
+void pieces_fall(State& state);                         // section 15
 void find_irradiance(State& state);                     // section 5
 void source(State& state);                              // section 4
 void heat(State& state);                                // section 6
