@@ -111,7 +111,7 @@ const std::vector<Case>& cases() {
        "scene.toml:8:12: error: heat.air.exchange = 1.5e-05 is below 1.52587890625e-05"},
       {kBox + "[pieces]\nin_liquid = 1025\n",
        "scene.toml:8:13: error: pieces.in_liquid = 1025 is outside 1..1024"},
-      {kBox + "[pieces]\ndensity = 1.5\n", "scene.toml:8:11: error: pieces.density = 1.5 is above 1"},
+      {kBox + "[pieces]\ndensity = 1.5\n", "scene.toml:8:11: error: pieces.density = 1.5 exceeds 1"},
       {kBox + "[pieces]\ndensity = 0\n",
        "scene.toml:8:11: error: pieces.density = 0 is below 1.52587890625e-05"},
       // Keys for flow are wrong.

@@ -85,9 +85,9 @@ TEST_P(Pieces, AStackClosesAndACageFallsOverAPost) {
   EXPECT_EQ(fall(v, 30), 7);
   EXPECT_EQ(v.solid.count(), 3 * 4 + 5 * 5 * 6 - 3 * 3 * 4);
   for (const int y : {0, 1, 2}) EXPECT_TRUE(v.solid.test(1, y, 1)) << y;
-  // The cage's ceiling was at 11. It stops on the post, whose top is at 5, or on its own feet.
-  EXPECT_TRUE(v.solid.test(5, 0, 5));
-  EXPECT_TRUE(v.solid.test(7, 4 + 0, 7) || v.inert.test(7, 4, 7));
+  // The cage's ceiling, 11 high, stops on the post, whose top is at 5.
+  EXPECT_TRUE(v.solid.test(7, 6, 7));
+  EXPECT_TRUE(v.solid.test(5, 2, 5) && !v.solid.test(5, 1, 5));
 }
 
 // A cube of 8 in a pool: in_liquid steps for a cell, and half of it under the surface at density 1/2.
