@@ -9,6 +9,7 @@
 #include "accuracy/heat.h"
 #include "accuracy/level.h"
 #include "accuracy/light.h"
+#include "accuracy/pieces.h"
 #include "accuracy/rest.h"
 #include "accuracy/slope.h"
 #include "accuracy/spreading.h"
@@ -57,13 +58,11 @@ Cases heat() {
        "With --quick the front goes 32 cells.",
        measure_stefan_two_phase},
       {"ball_in_mould", "Heat", "A ball melts in a hot mould that it fills",
-       "A plain program conducts heat through 160 shells, St 1. What melts has no room to move. Under the "
-       "viscous law it moves all the same, as in the case cavities: reported. "
-       "With --quick its ball of radius 20 is left out.",
+       "A plain program conducts heat through 160 shells, St 1. What melts has no room to move. "
+       "With --quick the ball of radius 20 is left out under the viscous law.",
        measure_ball_in_mould},
       {"ball_in_oven", "Heat", "A ball melts in an oven",
-       "Air heats what is exposed, and what melts is drained at once. So the radius shrinks steadily. The "
-       "surface that the rule gives to a ball of cells is 5 to 8 % too large.",
+       "Air heats what is exposed, and what melts is drained at once. So the radius shrinks steadily.",
        measure_ball_in_oven},
       {"checkerboard", "Heat", "A checkerboard of heat at the largest gamma decays, or the scene is refused",
        "Above gamma 0.39, with 6 neighbours, hot and cold cells change places in each step and keep more "
@@ -190,12 +189,14 @@ Cases levels() {
        "roundness.",
        measure_rest},
       {"cavities", "Levels", "A full cavity is at rest, whatever its ceiling",
-       "Cavities of some 16 cells, closed all round and full. Each layer is hotter than the one below. Under "
-       "a "
-       "level ceiling everything stays. Under any other the law has no pressure for the columns whose "
-       "ceiling "
-       "is lower: they take from their neighbours until they are overfull. Reported.",
+       "Cavities of some 16 cells, closed all round and full. Each layer is hotter than the one below. "
+       "Columns "
+       "of different height stand beside each other, and give each other nothing.",
        measure_cavities},
+      {"pieces", "Levels", "Pieces fall, sink and float",
+       "A cube of 8 cells falls into a pool of 24 x 24 cells, 14.3 deep. It sinks by whole cells, so what "
+       "floats may lie a cell off.",
+       measure_pieces},
       {"fall", "Levels", "A block falls whole, and a funnel of one cell empties a basin",
        "In free air liquid falls one cell per step. Of the basin, a film may stay.", measure_fall},
       {"filling", "Levels", "No cell in the open is squeezed",

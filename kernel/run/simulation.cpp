@@ -104,16 +104,20 @@ void Simulation::begin_step() {
 
 void Simulation::let_pieces_fall() {
   volume_.changed.begin();
-  if (host_ != nullptr) {
-    untold_ |= host_->let_pieces_fall(step_number(), volume_);
+  if (!(host_ != nullptr ? host_->let_pieces_fall(step_number(), volume_) : let_pieces_fall_for_device()))
     return;
-  }
-  if (behind_) device_->download_masks(volume_);
-  if (state::loose_solids(volume_).count() == 0) return;
-  fetch();
-  if (!scalar::let_pieces_fall(parameters_.pieces, step_number(), volume_)) return;
-  device_->upload(volume_, ledger_);
   untold_ = true;
+  provider_->forget_amounts();
+}
+
+// A device has no such rule. It sends its masks, and the rest of its state only if something is loose.
+bool Simulation::let_pieces_fall_for_device() {
+  if (behind_) device_->download_masks(volume_);
+  if (state::loose_solids(volume_).count() == 0) return false;
+  fetch();
+  if (!scalar::let_pieces_fall(parameters_.pieces, step_number(), volume_)) return false;
+  device_->upload(volume_, ledger_);
+  return true;
 }
 
 // Masks that a device has sent without the rest of its state count as changed everywhere.

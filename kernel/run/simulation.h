@@ -86,6 +86,7 @@ class Simulation {
   void make_irradiance();
   void make_stepper();
   void let_pieces_fall();
+  bool let_pieces_fall_for_device();
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
   step::Cadence count_substeps() const;

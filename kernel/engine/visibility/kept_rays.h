@@ -36,6 +36,7 @@ class KeptRays final : public Provider {
 
   std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                           state::Field<std::uint16_t>& result) override;
+  void forget_amounts() override { written_ = nullptr; }
   const state::ChangedRows* changed() const override { return tells_ ? &changed_ : nullptr; }
   std::string_view name() const override { return caster_->name(); }
   Casts casts() const override { return casts_; }

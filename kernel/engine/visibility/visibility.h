@@ -24,12 +24,15 @@ class Provider {
   virtual ~Provider() = default;
 
   // Fills one UQ12.4 irradiance per cell, 0 for every cell that is not a lit surface cell. A solid cell keeps
-  // its amount from one call to the next. `result` has the
-  // size of the volume. A provider may find its own earlier result there, and write only changes. Between two
+  // its amount from one call to the next, unless forget_amounts() comes between. `result` has the size of the
+  // volume. A provider may find its own earlier result there, and write only changes. Between two
   // calls, nobody else changes a result that is given again. It returns how often a cell was cut at the
   // largest irradiance, once for each source.
   virtual std::int64_t irradiance(const state::Volume& volume, const rule::Heat& heat, std::uint32_t step,
                                   state::Field<std::uint16_t>& result) = 0;
+
+  // Pieces have moved: a place that was solid, and is, may hold another cell now.
+  virtual void forget_amounts() {}
 
   // Tells where the last call gave its result other values than it found there. It is null if all may be
   // new.

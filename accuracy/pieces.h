@@ -1,0 +1,9 @@
+#pragma once
+
+#include "accuracy/case.h"
+
+namespace voxmelt::accuracy {
+
+Outcome measure_pieces(const Conditions&);
+
+}  // namespace voxmelt::accuracy
