@@ -41,8 +41,8 @@ def commit():
 class Build:
     """The standing build: how an object is compiled, and how a program is linked.
 
-    `in_library(source, file)` tells which sources of libraries are compiled anew when a file changes. So are a
-    program's own, but for those of the programs in `bare`.
+    `in_library(source, file, program)` tells which sources of libraries are compiled anew when a file changes. So
+    are a program's own, but for those of the programs in `bare`.
     """
 
     def __init__(self, folder, in_library, bare=()):
@@ -82,7 +82,7 @@ class Build:
         own = set(self.link_of(program)[1]) if program not in self.bare else set()
         for source in self.entries:
             name = self.object_of(source)
-            if (self.in_library(source, file) or name in own) and file in self.deps.get(name, ()):
+            if (self.in_library(source, file, program) or name in own) and file in self.deps.get(name, ()):
                 yield source
 
 

@@ -28,9 +28,10 @@ sys.path.insert(0, str(HERE.parents[1]))
 import table
 from overlay import ROOT, Build, Overlay, commit, misfit, run
 
-KEYS = {"name", "says", "file", "before", "after", "cases", "tests", "verdict"}
+KEYS = {"name", "says", "file", "before", "after", "cases", "tests", "alone", "verdict"}
 MEASURE = "app/voxmelt-measure"
 WHOLE_TESTS = "tests/kernel/kernel_scalar_test"  # none of its own sources holds a rule
+RULE_TESTS = "tests/kernel/kernel_rule_test"  # has no other code than its own sources
 
 
 def read_rules():
@@ -85,8 +86,9 @@ def self_test():
 
 def library_of(compiles):
     """Tells of a source of the reference whether it is compiled anew when a file changes."""
-    def in_library(source, file):
-        return source.startswith("kernel/engine/scalar/") and source in compiles.get(file, [source])
+    def in_library(source, file, program):
+        reference = source.startswith("kernel/engine/scalar/") and program != RULE_TESTS
+        return reference and source in compiles.get(file, [source])
     return in_library
 
 
@@ -163,44 +165,53 @@ def missed_rows(program, case, sound, folder):
              "with": (good.get((r["setting"], r["quantity"])) or {}).get("error")} for r in missed]
 
 
-def judge(build, rule, sound, plan, options):
-    """Takes a rule out, and runs what may miss it."""
+def runs_of(rule, plan):
+    """The cases and the tests that may miss a rule, its own first."""
+    others = [] if rule.get("alone") else plan["cases"]  # alone: no other case has it
+    return list(dict.fromkeys(rule["cases"] + others)), list(dict.fromkeys(rule.get("tests", []) + plan["tests"]))
+
+
+def judge(build, rule, sound, plan, before, options):
+    """Takes a rule out, and runs what may miss it, but for what ran before."""
     begin = time.monotonic()
     folder = options.out / "work"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    result = {"missed": [], "tests": "", "error": "", "ran": []}
+    result = {"missed": [], "tests": "", "error": "", "ran": list(before)}
+    cases, tests = runs_of(rule, plan)
     try:
         overlay = Overlay(build, rule, folder, options.optimise)
-        program = overlay.link(MEASURE)
-        for case in rule["cases"] + [c for c in plan["cases"] if c not in rule["cases"]]:
-            result["ran"].append(case)
-            result["missed"] = missed_rows(program, case, sound, folder)
-            if result["missed"]:
-                break
-        tests = [] if result["missed"] else rule.get("tests", []) + plan["tests"]
-        for test in tests:
-            result["ran"].append(test)
-            if not sound.test_passes(test):
-                raise RuntimeError(f"{test} fails with the rule, too")
-            result["tests"] = failing_test(overlay.link(target_of(test)), test, plan["longest_test"])
-            if result["tests"]:
+        for each in [each for each in cases + tests if each not in before]:
+            if each in cases:
+                result["missed"] = missed_rows(overlay.link(MEASURE), each, sound, folder)
+            elif sound.test_passes(each):
+                result["tests"] = failing_test(overlay.link(target_of(each)), each, plan["longest_test"])
+            else:
+                raise RuntimeError(f"{each} fails with the rule, too")
+            result["ran"].append(each)
+            if result["missed"] or result["tests"]:
                 break
     except RuntimeError as error:
-        result["error"] = str(error)
+        result["error"] = str(error)[:300]
     result["seconds"] = round(time.monotonic() - begin, 1)
     return result
 
 
-def key_of(rule, plan, result):
-    """What a result rests on: it holds as long as this stays the same. The plan counts where nothing was found."""
-    found = result["missed"] or result["tests"]
-    on = [{k: rule[k] for k in ("file", "before", "after")}, None if found else [plan, rule["cases"], rule.get("tests")]]
-    return hashlib.sha256((json.dumps(on, sort_keys=True) + (ROOT / rule["file"]).read_text()).encode()).hexdigest()[:16]
+def key_of(rule):
+    """What a result rests on: it holds as long as this stays the same."""
+    text = json.dumps([rule[k] for k in ("file", "before", "after")]) + (ROOT / rule["file"]).read_text()
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def ran_before(rule, result):
+    """What has run on a rule as it is, and found nothing."""
+    return result["ran"] if result and result["key"] == key_of(rule) and not result["error"] else []
 
 
 def holds(rule, plan, result):
-    return bool(result) and not result["error"] and result["key"] == key_of(rule, plan, result)
+    if not result or result["error"] or result["key"] != key_of(rule):
+        return False
+    return bool(result["missed"] or result["tests"]) or set(sum(runs_of(rule, plan), [])) <= set(result["ran"])
 
 
 def main():
@@ -233,8 +244,8 @@ def main():
             continue
         if holds(rule, plan, results.get(rule["name"])) and not options.again:
             continue
-        result = judge(build, rule, sound, plan, options) | {"commit": now}
-        result["key"] = key_of(rule, plan, result)
+        before = [] if options.again else ran_before(rule, results.get(rule["name"]))
+        result = judge(build, rule, sound, plan, before, options) | {"commit": now, "key": key_of(rule)}
         results[rule["name"]] = result
         store.write_text(json.dumps(results, indent=1))
         print(f"{rule['name']}: {table.verdict(result)} ({result['seconds']} s)", flush=True)

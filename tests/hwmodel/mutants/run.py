@@ -100,7 +100,7 @@ def check(mutants):
 
 def library_of(compiles):
     """Tells of a source in a library whether it is compiled anew when a file changes."""
-    def in_library(source, file):
+    def in_library(source, file, _program):
         ours = source.startswith(FOLDERS) or (source.startswith("hwmodel/") and source == file)
         return ours and source in compiles.get(file, [source])
     return in_library
