@@ -101,6 +101,8 @@ def measured(program, case, seconds, folder):
     code, text = run(words, seconds)
     if code == 124:
         return f"does not end in {seconds} s"
+    if code < 0:
+        return f"dies by signal {-code}"
     if code not in (0, 1) or not report.exists():
         return f"ends with {code}: {(text.strip().splitlines() or ['no word'])[-1][:100]}"
     return [row for row in json.loads(report.read_text())["cases"] if row["gate"] is not None]
@@ -123,12 +125,10 @@ class Sound:
         return self.held[key]
 
     def rows(self, case):
-        """Its rows by setting and quantity, and seconds; no rows if it cannot be run in time."""
+        """Its gated rows, and seconds; no rows if it cannot be run in time."""
         program = self.build.folder / MEASURE
         rows, seconds = self._once(program, case, lambda: measured(program, case, self.plan["longest"], self.out))
-        if isinstance(rows, str):
-            return {}, seconds
-        return {(r["setting"], r["quantity"]): r for r in rows if r["passed"]}, seconds
+        return ([] if isinstance(rows, str) else rows), seconds
 
     def test_passes(self, test):
         program = self.build.folder / target_of(test)
@@ -158,11 +158,10 @@ def missed_rows(program, case, sound, folder):
     rows = measured(program, case, max(60, 4 * seconds), folder)
     if isinstance(rows, str):
         return [{"case": case, "ends": rows}]
-    # Settings may say what was found, so rows that are new count by their setting alone.
-    missed = [r for r in rows if not r["passed"]]
-    return [{"case": case, "setting": r["setting"], "quantity": r["quantity"], "value": r["value"], "error": r["error"],
-             "error_is": r["error_is"], "gate": r["gate"],
-             "with": (good.get((r["setting"], r["quantity"])) or {}).get("error")} for r in missed]
+    told = ("setting", "quantity", "value", "error", "error_is", "gate")
+    # The same settings come in the same order; a quantity may say what was measured.
+    return [{"case": case, "with": beside["error"]} | {k: row[k] for k in told} for row, beside in zip(rows, good)
+            if not row["passed"] and beside["passed"] and row["setting"] == beside["setting"]]
 
 
 def runs_of(rule, plan):
@@ -203,13 +202,19 @@ def key_of(rule):
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
+def is_of(rule, result):
+    """Tells if this was found of the rule as it is."""
+    return bool(result) and not result["error"] and result["key"] == key_of(rule)
+
+
 def ran_before(rule, result):
     """What has run on a rule as it is, and found nothing."""
-    return result["ran"] if result and result["key"] == key_of(rule) and not result["error"] else []
+    return result["ran"] if is_of(rule, result) else []
 
 
 def holds(rule, plan, result):
-    if not result or result["error"] or result["key"] != key_of(rule):
+    """Tells if nothing is left to run."""
+    if not is_of(rule, result):
         return False
     return bool(result["missed"] or result["tests"]) or set(sum(runs_of(rule, plan), [])) <= set(result["ran"])
 
@@ -249,7 +254,8 @@ def main():
         results[rule["name"]] = result
         store.write_text(json.dumps(results, indent=1))
         print(f"{rule['name']}: {table.verdict(result)} ({result['seconds']} s)", flush=True)
-    current = {r["name"]: results[r["name"]] for r in rules if holds(r, plan, results.get(r["name"]))}
+    current = {r["name"]: results[r["name"]] | {"whole": holds(r, plan, results[r["name"]])} for r in rules
+               if is_of(r, results.get(r["name"]))}
     text = table.page(rules, current)
     (options.out / "rules.md").write_text(text)
     if options.docs:

@@ -53,17 +53,28 @@ def verdict(result):
     return "error: " + result["error"] if result["error"] else cells(result).replace("|", "").strip()
 
 
+def short(run):
+    """A case or a test as the page says it."""
+    program, _, chosen = run.partition(" ")
+    return f"`{program}`" if program == "full" or not chosen else f"{chosen.split(':')[0]} and so on" if ":" in chosen else chosen
+
+
 def page(rules, results):
     ran = [r for r in rules if r["name"] in results]
-    needless = [r for r in ran if not results[r["name"]]["missed"] and not results[r["name"]]["tests"]]
-    by_gate = sum(bool(results[r["name"]]["missed"]) for r in ran)
-    lines = [HEAD, f"{len(ran)} of {len(rules)} rules have run. A gate needs {by_gate} of them, a test of a property alone "
-             f"{len(ran) - by_gate - len(needless)}, and no gate {len(needless)}.",
-             "Commits of the runs: " + ", ".join(sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})) + "."]
-    for section in sorted({r["section"] for r in ran}):
+    found = [r for r in ran if results[r["name"]]["missed"] or results[r["name"]]["tests"]]
+    needless = [r for r in ran if r not in found and results[r["name"]]["whole"]]
+    by_gate = sum(bool(results[r["name"]]["missed"]) for r in found)
+    commits = sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})
+    lines = [HEAD, f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs",
+             f"{len(needless)}. For {len(rules) - len(found) - len(needless)} not all has run yet. Commits of the runs: {', '.join(commits)}."]
+    for section in sorted({r["section"] for r in found}):
         lines += ["", f"## Section {section}", "", "| rule | what it says | without it: the gate that fails | error | gate | case or test |",
                   "|---|---|---|---|---|---|"]
-        lines += [f"| {r['name']} | {r['says'].replace('|', '/')} | {cells(results[r['name']])}|" for r in ran if r["section"] == section]
-    lines += ["", "## What no gate needs", "", "| rule | what to do |", "|---|---|"]
-    lines += [f"| {r['name']} | {r.get('verdict', 'not judged yet')} |" for r in needless]
+        lines += [f"| {r['name']} | {r['says'].replace('|', '/')} | {cells(results[r['name']])}|" for r in found if r["section"] == section]
+    head = ["", "| rule | what it says | what passes without it | what to do |", "|---|---|---|---|"]
+    line = lambda r: (f"| {r['name']} | {r['says'].replace('|', '/')} | {', '.join(map(short, results.get(r['name'], {}).get('ran', []))) or '-'} "
+                      f"| {r.get('verdict', '')} |")
+    lines += ["", "## What no gate needs"] + head + list(map(line, needless))
+    rest = [r for r in rules if r not in found and r not in needless]
+    lines += ["", "## What has not run to its end", "", "The command goes on with these."] + head + list(map(line, rest))
     return "\n".join(lines) + "\n"
