@@ -166,8 +166,10 @@ def missed_rows(program, case, sound, folder):
 
 def runs_of(rule, plan):
     """The cases and the tests that may miss a rule, its own first."""
-    others = [] if rule.get("alone") else plan["cases"]  # alone: no other case has it
-    return list(dict.fromkeys(rule["cases"] + others)), list(dict.fromkeys(rule.get("tests", []) + plan["tests"]))
+    cases, tests = rule["cases"], rule.get("tests", [])
+    if not rule.get("alone"):  # alone: nothing else has it
+        cases, tests = cases + plan["cases"], tests + plan["tests"]
+    return list(dict.fromkeys(cases)), list(dict.fromkeys(tests))
 
 
 def judge(build, rule, sound, plan, before, options):
