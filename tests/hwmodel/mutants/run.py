@@ -23,17 +23,18 @@ import pathlib
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 import threading
 import time
 import tomllib
 
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1]))
+
 import report
 import together
+from overlay import ROOT, Build, Overlay, commit, misfit, run
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[2]
 KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
 # What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
 # the ray caster has mutants of its own elsewhere.
@@ -55,12 +56,8 @@ def problems_of(mutant):
         yield f"is of no class: {mutant['class']}"
     if mutant["class"] == "wrong bits" and "stage" not in mutant:
         yield "does not say which stage must be named"
-    file = ROOT / mutant["file"]
-    times = file.read_text().count(mutant["before"]) if file.is_file() else -1
-    if times != 1:
-        yield f"its text stands {times} times in {mutant['file']}" if times >= 0 else f"no file {file}"
-    if mutant["before"] == mutant["after"]:
-        yield "changes nothing"
+    if problem := misfit(mutant):
+        yield problem
 
 
 def read_mutants():
@@ -101,50 +98,12 @@ def check(mutants):
     return 1 if found or not mutants else 0
 
 
-class Build:
-    """The standing build: how an object is compiled, and how a program is linked."""
-
-    def __init__(self, folder, compiles):
-        self.folder, self.compiles = folder.resolve(), compiles
-        entries = json.loads((self.folder / "compile_commands.json").read_text())
-        self.entries = {os.path.relpath(e["file"], ROOT): e for e in entries}
-        self.deps = {}  # object -> files of the tree
-        name = None
-        for line in self.ninja("-t", "deps").splitlines():
-            if line and not line[0].isspace():
-                name = line.split(":")[0]
-                self.deps[name] = set()
-            elif name and line.strip():
-                path = os.path.normpath(self.folder / line.strip())
-                if path.startswith(str(ROOT) + "/"):
-                    self.deps[name].add(os.path.relpath(path, ROOT))
-        self.links = {}
-
-    def ninja(self, *arguments):
-        return subprocess.run(["ninja", "-C", str(self.folder), *arguments], check=True, text=True,
-                              capture_output=True).stdout
-
-    def object_of(self, source):
-        words = shlex.split(self.entries[source]["command"])
-        return words[words.index("-o") + 1]
-
-    def link_of(self, program):
-        """The words of its link command, and its own objects among them."""
-        if program not in self.links:
-            line = self.ninja("-t", "commands", program).splitlines()[-1]
-            words = [w for w in shlex.split(line.split("&&")[1])]
-            self.links[program] = words, [w for w in words if w.endswith(".o")]
-        return self.links[program]
-
-    def sources(self, file, program):
-        """What must be compiled anew in a program when a file changes."""
-        own = set(self.link_of(program)[1]) if program != VERIFY else set()
-        for source in self.entries:
-            name = self.object_of(source)
-            library = source.startswith(FOLDERS) or (source.startswith("hwmodel/") and source == file)
-            library = library and source in self.compiles.get(file, [source])
-            if (library or name in own) and file in self.deps.get(name, ()):
-                yield source
+def library_of(compiles):
+    """Tells of a source in a library whether it is compiled anew when a file changes."""
+    def in_library(source, file, _program):
+        ours = source.startswith(FOLDERS) or (source.startswith("hwmodel/") and source == file)
+        return ours and source in compiles.get(file, [source])
+    return in_library
 
 
 class Found:
@@ -160,55 +119,6 @@ class Found:
         self.text = text
 
 
-class Mutation:
-    """One mutant on its way: its overlay, its objects, its programs."""
-
-    def __init__(self, build, mutant, folder, optimise):
-        self.build, self.mutant, self.folder, self.optimise = build, mutant, folder, optimise
-        overlay = folder / "overlay" / mutant["file"]
-        overlay.parent.mkdir(parents=True, exist_ok=True)
-        text = (ROOT / mutant["file"]).read_text()
-        overlay.write_text(text.replace(mutant["before"], mutant["after"]))
-        (folder / "bin").mkdir(exist_ok=True)
-        share = folder / "share"
-        if not share.exists():
-            share.symlink_to(build.folder / "share")
-        self.objects, self.chosen = {}, {}
-
-    def compile(self, source):
-        if source in self.objects:
-            return
-        entry = self.build.entries[source]
-        words = shlex.split(entry["command"])
-        target = self.folder / (source.replace("/", "_") + ".o")
-        words[words.index("-o") + 1] = str(target)
-        if source == self.mutant["file"]:
-            words[-1] = str(self.folder / "overlay" / source)
-        words = [w for w in words if w not in ("-Werror", "-O3", "-O2")]
-        words[1:1] = [self.optimise, "-w", f"-I{self.folder / 'overlay'}"]
-        if words[0].endswith("ccache"):
-            words = words[1:]
-        result = subprocess.run(words, cwd=entry["directory"], text=True, capture_output=True)
-        if result.returncode != 0:
-            raise RuntimeError(f"{source} does not compile:\n{result.stderr[:2000]}")
-        self.objects[source] = target
-
-    def link(self, program):
-        sources = list(self.build.sources(self.mutant["file"], program))
-        for source in sources:
-            self.compile(source)
-        words, own = self.build.link_of(program)
-        changed = {self.build.object_of(s): str(self.objects[s]) for s in sources}
-        target = self.folder / "bin" / pathlib.Path(program).name
-        at = words.index("-o")
-        extra = [o for name, o in changed.items() if name not in own]
-        words = [changed.get(w, w) for w in words[:at]] + extra + ["-o", str(target)] + words[at + 2:]
-        result = subprocess.run(words, cwd=self.build.folder, text=True, capture_output=True)
-        if result.returncode != 0:
-            raise RuntimeError(f"{program} does not link:\n{result.stderr[:2000]}")
-        return target
-
-
 class Chosen:
     """One mutant of a program that holds many."""
 
@@ -220,21 +130,11 @@ class Chosen:
         return self.built.program(program)
 
 
-def run(words, seconds=LONGEST, chosen={}):
-    """The exit code and the text; a run that takes too long counts as failed."""
-    try:
-        result = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, timeout=seconds, errors="replace",
-                                env=os.environ | chosen)
-        return result.returncode, result.stdout + result.stderr
-    except subprocess.TimeoutExpired:
-        return 124, "takes too long"
-
-
 def verify(program, grounds, folder, chosen={}):
     """The first ground on which verify fails, or None."""
     for ground in grounds:
         code, text = run([str(program), "verify", *shlex.split(ground["run"]), "--out", str(folder / "replay")],
-                         chosen=chosen)
+                         LONGEST, chosen)
         if code != 0:
             return Found(ground["name"], code, text)
     return None
@@ -305,7 +205,7 @@ def judge(build, built, mutant, grounds, others, work, options):
         if built is not None and mutant["name"] in built.numbers:
             mutation = Chosen(built, mutant)
         else:
-            mutation = Mutation(build, mutant, folder, options.optimise)
+            mutation = Overlay(build, mutant, folder, options.optimise)
         tests, bits = mutant.get("tests"), mutant["class"] in BITS
         if tests and not bits:  # these are for the tests; verify need not find them
             result["tests"] = unit_tests(mutation, tests) or ""
@@ -349,11 +249,6 @@ def needed(mutant, result, plan):
 
 def holds(mutant, result, plan):
     return bool(result) and not result["error"] and result["key"] == key_of(mutant, needed(mutant, result, plan))
-
-
-def commit():
-    words = ["git", "-C", str(ROOT), "describe", "--always", "--dirty"]
-    return subprocess.run(words, text=True, capture_output=True).stdout.strip() or "unknown"
 
 
 def main():
@@ -405,7 +300,7 @@ def main():
             print(f"without any mutant verify fails on the ground {found.run}:\n{found.text}")
             return 1
         sound.write_text(state)
-    build = Build(options.build, plan["compiles"])
+    build = Build(options.build, library_of(plan["compiles"]), bare={VERIFY})
     store = options.out / "results.json"
     results = json.loads(store.read_text()) if store.exists() else {}
     lock, now, begin = threading.Lock(), commit(), time.monotonic()
