@@ -9,6 +9,7 @@
 
 #include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/lag.h"
+#include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/streams/column_port.h"
 #include "hwmodel/pipeline/time/prediction.h"
 
@@ -18,8 +19,7 @@ namespace {
 // Counts the time steps of the pass that begins with `step`. None reaches beyond a step of visibility.
 int steps_of_pass(const Design& design, const Configuration& c, std::uint32_t step, std::int64_t left) {
   const rule::Heat& heat = design.parameters.heat;
-  const bool counted = !design.paper() && design.parameters.flow.viscous.counts_substeps();
-  std::int64_t steps = std::min<std::int64_t>(left, counted ? 1 : c.cascade);
+  std::int64_t steps = std::min<std::int64_t>(left, host_sees_each_step(design.parameters) ? 1 : c.cascade);
   if (heat.radiates())
     steps = std::min<std::int64_t>(steps, heat.visibility_every - heat.visibility_age(step));
   return static_cast<int>(steps);
@@ -187,8 +187,8 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
       trains.back().steps += pass.steps;
       done += pass.steps;
       const std::uint32_t step = first_step + static_cast<std::uint32_t>(done);
-      if (done == steps || substeps == 0 || !passes_overlap(design, c, pass) ||
-          (heat.radiates() && heat.visibility_age(step) == 0))
+      if (done == steps || substeps == 0 || design.parameters.pieces.fall ||
+          !passes_overlap(design, c, pass) || (heat.radiates() && heat.visibility_age(step) == 0))
         break;
       pass.first = step;
       pass.steps = steps_of_pass(design, c, step, steps - done);

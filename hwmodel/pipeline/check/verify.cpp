@@ -19,9 +19,11 @@
 #include "hwmodel/pipeline/faults/planted_faults.h"
 #include "hwmodel/pipeline/faults/planted_stages.h"
 #include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/time/prediction.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/automaton/state/ledger.h"
+#include "kernel/engine/scalar/pieces.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -109,9 +111,11 @@ class Lockstep::Run {
       report_.replay_step = step;
     }
     software_.begin_step();
+    const rule::Pieces& pieces = machine_.design().parameters.pieces;
+    if (pieces.fall) scalar::let_pieces_fall(pieces, step, memory_);  // by the host, before the pass
     Pass pass{.first = step, .substeps = software_.substeps()};
     pass.count = std::min(pass.substeps, options_.configuration.substeps);
-    if (pass.ends() && substeps_are_known()) pass.steps = steps_of(step);
+    if (pass.ends() && !host_waits()) pass.steps = steps_of(step);
     if (!run_software(pass)) {
       report_.mismatch = std::move(software_mismatch_);
       return;
@@ -130,10 +134,7 @@ class Lockstep::Run {
     stopped_ = !options_.visit(memory_, report_);
   }
 
-  // Returns false if the scene lets each step count its sub-steps. They are known only when the step begins.
-  bool substeps_are_known() const {
-    return machine_.design().paper() || !machine_.design().parameters.flow.viscous.counts_substeps();
-  }
+  bool host_waits() const { return host_sees_each_step(machine_.design().parameters); }
   // Returns the steps of a pass, which does not reach beyond a step at which `visit` is called.
   int steps_of(std::uint32_t step) const {
     const std::uint32_t done = step - report_.first_step, every = options_.visit_every;
@@ -176,7 +177,7 @@ class Lockstep::Run {
     const std::uint32_t step = last.first + last.steps;
     const Design& design = machine_.design();
     const rule::Heat& heat = design.parameters.heat;
-    if (!passes_overlap(design, options_.configuration, last) || !substeps_are_known() ||
+    if (!passes_overlap(design, options_.configuration, last) || host_waits() ||
         step == report_.first_step + options_.steps || is_visited(step) ||
         (heat.radiates() && heat.visibility_age(step) == 0))
       return {};

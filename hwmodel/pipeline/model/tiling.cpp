@@ -45,8 +45,12 @@ Design design_of(const rule::Parameters& parameters, state::Grid grid, const Con
   return design;
 }
 
+bool host_sees_each_step(const rule::Parameters& parameters) {
+  const bool paper = parameters.flow.law == rule::Law::paper;
+  return parameters.pieces.fall || (!paper && parameters.flow.viscous.counts_substeps());
+}
+
 std::string unmodelled_rule(const rule::Parameters& parameters) {
-  if (parameters.pieces.fall) return "pieces.fall: no stage turns the columns of a piece that falls";
   if (parameters.flow.law == rule::Law::paper || !parameters.flow.viscous.relaxes()) return {};
   return "flow.viscous.stages_max above 1: the pipeline has no stage that relaxes heads";
 }
