@@ -1,12 +1,14 @@
 // Pieces that nothing holds fall, in every implementation: by hand, and alike in random worlds.
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/engine/parallel/local_parts.h"
 #include "kernel/engine/parallel/loose_pieces.h"
+#include "kernel/engine/visibility/visibility.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::parallel {
@@ -109,6 +111,53 @@ TEST_P(Pieces, SinkSlowlyAndFloat) {
   std::int64_t mass = 0;
   for_each(whole(floating.grid), [&](int x, int y, int z) { mass += floating.amount[floating.at(x, y, z)]; });
   EXPECT_EQ(mass, std::int64_t{kOne} * (20 * 20 * 12 + 512));
+}
+
+// A disc of 9 x 9 hangs on a post of two cells, and its rim reaches into the pool: of its layers, the disc's
+// is under the surface, but the lowest is dry, in a pit. So nothing counts as sunk.
+TEST_P(Pieces, ALayerAboveADryOneIsNotSunk) {
+  Volume v(Grid{15, 12, 15});
+  fill(v, {0, 0, 0, 15, 8, 15}, kOne);
+  for_each({5, 2, 5, 10, 5, 10}, [&](int x, int y, int z) { put(v, x, y, z, 0); });  // the pit
+  fill_solid(v, {7, 3, 7, 8, 5, 8});
+  fill_solid(v, {3, 5, 3, 12, 7, 12});
+  EXPECT_EQ(fall(v, 1, {true, 1, 1000}), 1) << "it would float if layers above the pit counted";
+}
+
+// What held a piece goes, though no solid does.
+TEST_P(Pieces, FallIfTheInertCellGoes) {
+  Parameters p = viscous(0.02);
+  p.pieces.fall = true;
+  Volume v(Grid{6, 6, 6});
+  put_inert(v, 2, 4, 2);
+  put_solid(v, 3, 4, 2);
+  const auto stepper = implementation(GetParam()).create(p, v.grid, {});
+  auto& host = dynamic_cast<step::HostStepper&>(*stepper);
+  EXPECT_FALSE(host.let_pieces_fall(0, v));
+  put(v, 2, 4, 2, 0);
+  v.inert.set(2, 4, 2, false);
+  EXPECT_TRUE(host.let_pieces_fall(1, v));
+}
+
+// A column of solids of different amounts melts below and falls in one step. So no solid is new at any place,
+// and yet the light that each place takes up is another.
+TEST_P(Pieces, TheLightMeetsAnotherAmount) {
+  Parameters p = viscous(0.02);
+  p.pieces.fall = true;
+  p.heat.enabled = p.heat.radiation = true;
+  p.heat.visibility_every = 1;
+  p.heat.sources = {{{{.at = {16 * 9, 16 * 5, 16 * 5}, .power = std::uint64_t{1} << 26}}}};
+  Volume v(Grid{10, 10, 10});
+  put_inert(v, 4, 2, 4);
+  for (int y = 3; y < 8; ++y) put_solid(v, 4, y, 4, 500 * y, y == 3 ? 40000 : 0);
+  run::Simulation expected(p, v, implementation("reference"), {},
+                           std::make_unique<visibility::VoxelWalkProvider>());
+  run::Simulation actual(p, v, implementation(GetParam()));
+  for (int step = 0; step < 8; ++step) {
+    expected.step();
+    actual.step();
+    ASSERT_EQ(difference(expected.volume(), actual.volume()), "") << "step " << step;
+  }
 }
 
 // Boxes that overlap, with holes, above pools and posts.
