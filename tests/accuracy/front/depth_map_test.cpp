@@ -34,11 +34,14 @@ TEST(DepthMap, ACoarserGridHasTheSameSquares) {
 TEST(DepthMap, SquaresShareACellOnTheirBorder) {
   Volume v(Grid{3, 1, 3});
   put(v, 1, 0, 0, kOne, 0, 0);
+  put(v, 1, 0, 1, kOne, 0, 0);
   const DepthMap map = map_of(v, 0.375);
-  ASSERT_EQ(map.size(), 2u);
+  ASSERT_EQ(map.size(), 4u);
   const double cell = 1 / (0.375 * 0.375 * 0.375);
-  EXPECT_NEAR(map.at({0, 0}), cell / 2, 1e-9);
-  EXPECT_NEAR(map.at({1, 0}), cell / 2, 1e-9);
+  EXPECT_NEAR(map.at({0, 0}), cell / 2 + cell / 4, 1e-9);
+  EXPECT_NEAR(map.at({1, 0}), cell / 2 + cell / 4, 1e-9);
+  EXPECT_NEAR(map.at({0, 1}), cell / 4, 1e-9);
+  EXPECT_NEAR(map.at({1, 1}), cell / 4, 1e-9);
 }
 
 TEST(DepthMap, APartLiesElsewhere) {
