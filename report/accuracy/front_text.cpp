@@ -36,6 +36,13 @@ std::vector<std::string> grid_row(const Swept& swept, const Measured& point) {
                  seconds_text(swept.usual_seconds)});
 }
 
+// Tells if no step keeps any bound under the paper's law.
+bool step_matters(const Swept& swept) {
+  return !swept.subject->viscous && std::all_of(swept.picks.begin(), swept.picks.end(), [](const Pick& pick) {
+    return std::find(pick.without.begin(), pick.without.end(), Axis::step) != pick.without.end();
+  });
+}
+
 bool has_star(const Swept& swept) {
   return std::any_of(swept.picks.begin(), swept.picks.end(),
                      [](const Pick& pick) { return pick.curves_alone && !pick.none; });
@@ -65,6 +72,9 @@ constexpr const char* kErrorText =
 constexpr const char* kNeighboursText =
     "More neighbours are another stencil, not a finer one. They differ from 6 by so much, and no pick takes "
     "them. Conduction is the same under both laws, so they are tried under the paper's alone.";
+constexpr const char* kPaperText =
+    "Under the paper's law half a step flows otherwise, and no step was run from which on it does not. There "
+    "the length of a step is a part of the model, so look at the other axes.";
 constexpr const char* kStarText =
     "A star: other random bits move more of the map than the bound, so the curves alone are judged. Where "
     "they change the curves by more than the bound, no setting is judged.";
@@ -151,6 +161,7 @@ std::vector<std::string> texts_below_picks(const FrontReport& report) {
   texts.emplace_back(kErrorText);
   texts.emplace_back(kTimeText);
   texts.emplace_back(kNeighboursText);
+  if (std::any_of(report.swept.begin(), report.swept.end(), step_matters)) texts.emplace_back(kPaperText);
   if (std::any_of(report.swept.begin(), report.swept.end(), has_star)) texts.emplace_back(kStarText);
   return texts;
 }
