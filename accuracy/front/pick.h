@@ -11,10 +11,10 @@ inline constexpr double kBounds[] = {0.05, 0.01, 0.001};
 
 inline constexpr double kLeastSaving = 0.03;  // of the usual setting's time: less is not worth an error
 
-// Returns the cheapest point along the axis whose error keeps the bound, or null. Along rays and visibility
-// that is the coarsest one. Along steps and the viscous law it is the fastest, but the usual setting stays if
-// no other one saves enough. The map counts unless its noise exceeds the bound. If that of the curves does,
-// no point is judged. A reference is the last choice, and only if nothing finer can be had.
+// Returns the cheapest point along the axis whose error keeps the bound, or null. That is the coarsest one,
+// but under the viscous law's keys the fastest, and there the usual setting stays if no other one saves
+// enough. The map counts unless its noise exceeds the bound. If that of the curves does, no point is judged.
+// A reference is the last choice, and only if nothing finer can be had.
 const Measured* cheapest_within(std::span<const Measured> points, Axis axis, const Setting& usual,
                                 const Noise& noise, double bound);
 

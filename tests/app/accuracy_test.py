@@ -73,8 +73,7 @@ class Accuracy(unittest.TestCase):
             self.assertEqual(pick["curves_alone"], alone)
             errors = {p["step"]: max(p[key] for key in curves) if alone else p["error"] for p in steps}
             kept = [p for p in steps if max(errors[p["step"]], scene["noise_of_curves"]) <= pick["bound"]]
-            cheaper = [p for p in kept if usual not in kept or p["run_seconds"] < 0.97 * usual["run_seconds"]]
-            best = min(cheaper, key=lambda p: p["run_seconds"], default=usual)
+            best = kept[0] if kept else usual  # the coarsest
             self.assertEqual(pick["without"], [] if kept else ["step"])
             self.assertEqual(pick["setting"] and pick["setting"]["step"], best["step"] if kept else None)
             self.assertEqual(pick["error_sum"], errors[best["step"]])

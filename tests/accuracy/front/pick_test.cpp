@@ -74,8 +74,11 @@ TEST(Pick, TheUsualSettingStaysUnlessTimeIsSaved) {
   EXPECT_EQ(cheapest_within(all, Axis::viscous, {}, kSilent, 0.01), &all[0]);
 }
 
-// Fewer castings are less work. Their time was told wrong.
-TEST(Pick, TheCoarsestOfRaysAndVisibility) {
+// Fewer castings and steps are less work. Their time was told wrong, or they had no limit of sub-steps.
+TEST(Pick, TheCoarsestOfStepsRaysAndVisibility) {
+  std::vector<Measured> steps = points();
+  steps[1].seconds = 30;
+  EXPECT_EQ(cheapest_within(steps, Axis::step, {}, kSilent, 0.03), &steps[1]);
   EXPECT_EQ(cheapest(Axis::visibility, 0.001)->interval, 2);
   EXPECT_EQ(*cheapest(Axis::visibility, 0.0001), Setting{});
 }
