@@ -81,7 +81,7 @@ void expect_difference(const Measured& measured, const Ended& found, const Ended
 }
 
 // Each axis has its own reference. The usual run is computed by the slowest implementation.
-TEST(Sweep, ErrorsAlongTheAxes) {
+void expect_errors_along_the_axes() {
   const Setting usual = usual_setting(Extent::quick);
   const auto with = [&](auto Setting::*what, auto value) {
     Setting setting = usual;
@@ -103,7 +103,7 @@ TEST(Sweep, TheErrorIsTheLargestOfCurvesAndMap) {
 }
 
 // The noise is the largest difference between the usual run and one with another seed.
-TEST(Sweep, NoiseIsThatOfThreeSeeds) {
+void expect_noise_of_three_seeds() {
   const Setting usual = usual_setting(Extent::quick);
   const Ended own = run_of(bunny(), usual, widest());
   Noise noise;
@@ -128,7 +128,7 @@ TEST(Sweep, TheViscousLawHasNoNoise) {
   EXPECT_FALSE(own.map.empty());
 }
 
-TEST(Sweep, EachAxisHasItsReferenceAndEachPointItsTime) {
+void expect_references_and_times() {
   for (const Measured& one : quick().points) {
     const std::string name = text_of(one.axis, one.setting);
     EXPECT_GT(one.seconds, 1e-4) << name;
@@ -139,7 +139,7 @@ TEST(Sweep, EachAxisHasItsReferenceAndEachPointItsTime) {
   }
 }
 
-TEST(Sweep, PicksAreThoseOfThePoints) {
+void expect_picks_of_the_points() {
   ASSERT_EQ(quick().picks.size(), std::size(kBounds));
   for (std::size_t i = 0; i < quick().picks.size(); ++i) {
     const Pick wanted = pick(quick().points, quick().usual, quick().noise, kBounds[i]);
@@ -150,7 +150,7 @@ TEST(Sweep, PicksAreThoseOfThePoints) {
 }
 
 // The twin in the engine's format is the engine. Formats are told beside double.
-TEST(Sweep, FormatsAreInTheirOrder) {
+void expect_formats_in_their_order() {
   const auto format = [](const std::string& name) {
     for (const Format& one : quick().formats)
       if (name_of(one.arithmetic) == name) return one;
@@ -168,6 +168,15 @@ TEST(Sweep, FormatsAreInTheirOrder) {
   EXPECT_EQ(format("u8 dithered").state_bits, 26);
   EXPECT_EQ(format("u16 dithered").state_bits, 50);
   EXPECT_EQ(format("u32 dithered").state_bits, 98);
+}
+
+// It is one test, because a process of its own would sweep anew for each.
+TEST(Sweep, OfTheBunny) {
+  expect_errors_along_the_axes();
+  expect_noise_of_three_seeds();
+  expect_references_and_times();
+  expect_picks_of_the_points();
+  expect_formats_in_their_order();
 }
 
 }  // namespace
