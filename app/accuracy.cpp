@@ -135,14 +135,15 @@ void add_accuracy(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
   const Command command = program.add("accuracy", std::string(description_of("accuracy")));
   command.flag("--quick", options->quick,
-               "shorter cases, a minute of processor time (--front: one scene, fewer points)");
+               "shorter cases, a minute of processor time (--front: one scene on a small grid, few points)");
   command.option("--case", options->cases, "this case only (repeatable); `voxmelt list cases` names them")
       .written_as("NAME")
       .one_each_time();
   const Option front =
       command
           .option("--front", options->front,
-                  "instead: speed against error, of all scenes of the front or of these; one thread")
+                  "instead: the time and the error of settings, of all scenes of the front or of these; one "
+                  "thread, most of an hour")
           .written_as("[SCENE ...]")
           .any_number();
   command.option("--out", options->out,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,22 +42,28 @@ std::vector<const front::Subject*> chosen_subjects(const FrontOptions& options) 
   return chosen;
 }
 
-std::string part(const std::optional<front::Errors>& errors) {
-  return errors ? accuracy::percent_text(errors->largest()) : "-";
+void print_points(const front::Swept& swept) {
+  print("{}: usual {:.3f} s; other random bits: curves {}, map {}\n", swept.subject->scene,
+        swept.usual_seconds, accuracy::percent_text(swept.noise.curves),
+        accuracy::percent_text(swept.noise.map));
+  for (const front::Measured& point : swept.points)
+    print("  {:<11} {:<34} {:>10} {:>10} {:>10.3f} s\n", front::name_of(point.axis),
+          front::text_of(point.axis, point.setting) + (point.setting == swept.usual ? " (usual)" : ""),
+          point.reference ? "reference" : accuracy::percent_text(point.difference.curves.largest()),
+          point.reference ? "" : accuracy::percent_text(point.difference.map), point.seconds);
+  for (const front::Pick& pick : swept.picks)
+    print("  {:g} %: {}{}, errors {}, {:.3f} s\n", 100 * pick.bound,
+          pick.none ? "none" : front::words_of(pick.setting),
+          pick.without.empty() ? "" : fmt::format(" (missed by {})", accuracy::axes_text(pick.without)),
+          accuracy::percent_text(pick.sum), pick.seconds);
+  std::fflush(stdout);
 }
 
-void print_points(const front::Swept& swept) {
-  print("{}\n", swept.subject->scene);
-  for (const front::Measured& point : swept.points) {
-    const auto& baseline = point.cost.baseline_cells_per_second;
-    print("  {:<44} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}  {}\n", front::text_of(point.choice),
-          part(point.arithmetic), part(point.model), part(point.whole), part(point.grid),
-          point.cost.state_bits,
-          point.cost.run_seconds ? fmt::format("{:.3f} s", *point.cost.run_seconds) : "-",
-          accuracy::speed_text(point.cost.cells_per_second), baseline ? accuracy::speed_text(*baseline) : "-",
-          point.twin ? "twin" : "engine");
-  }
-  std::fflush(stdout);
+void write_files(const std::filesystem::path& folder, const accuracy::FrontReport& report) {
+  io::write_file(folder / "front.json", accuracy::json_text(report));
+  io::write_file(folder / "front.csv", accuracy::csv_text(report));
+  io::write_file(folder / "front.md", accuracy::markdown_text(report));
+  io::write_file(folder / "front.html", accuracy::html_text(report));
 }
 
 }  // namespace
@@ -75,23 +82,17 @@ int run_front(const Common& common, const FrontOptions& options, const accuracy:
                                .extent = extent,
                                .swept = {},
                                .seconds = 0};
-  print("{:<46} {:>10} {:>10} {:>10} {:>10} {:>5} {:>8} {:>9} {:>9}\n", "", "arithmetic", "model", "whole",
-        "grid", "bits", "run", "Mcell/s", "baseline");
+  print("  {:<11} {:<34} {:>10} {:>10} {:>12}\n", "axis", "setting", "curves", "map", "a run");
   for (const front::Subject* subject : subjects) {
-    report.swept.push_back(
-        front::sweep(*subject, extent, conditions, [](const front::Choice&) { stop_if_interrupted(); }));
+    report.swept.push_back(front::sweep(*subject, extent, conditions, stop_if_interrupted));
     print_points(report.swept.back());
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (out) write_files(out->partial(), report);  // a look at the scenes so far
   }
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  print("{} points along {} axes\n", report.points(), report.axes());
+  print("{} points\n", report.points());
 
-  const std::string json = accuracy::json_text(report);
-  write_report(common, json);
+  write_report(common, accuracy::json_text(report));
   if (out) {
-    io::write_file(out->partial() / "front.json", json);
-    io::write_file(out->partial() / "front.csv", accuracy::csv_text(report));
-    io::write_file(out->partial() / "front.md", accuracy::markdown_text(report));
-    io::write_file(out->partial() / "front.html", accuracy::html_text(report));
     out->commit();
     if (!common.quiet) print("page, tables and report  {}/\n", seen_from_here(out->place()));
   }

@@ -45,6 +45,12 @@ std::string list(double x, double y, double z) { return fmt::format("[{:.6f},{:.
 // sums of x^2 / l^2 over the neighbours.
 double slowness(int neighbours) { return neighbours == 6 ? 1 : neighbours == 18 ? 3 : 13.0 / 3; }
 
+constexpr double kMostGamma = 0.5236;
+
+double gamma_at(const Setting& setting, double gamma) {
+  return gamma * setting.grid * setting.step / slowness(setting.neighbours);
+}
+
 }  // namespace
 
 std::vector<std::string> Subject::sets(const Setting& setting) const {
@@ -55,13 +61,12 @@ std::vector<std::string> Subject::sets(const Setting& setting) const {
   const auto height = [&](double y) { return floor ? (y - kFloor) * s + kFloorOfGrid : y * s; };
   const auto at = [&](double x, double y, double z) { return list(x * s, height(y), z * s); };
 
-  std::vector<std::string> sets{
-      fmt::format("grid.size=[{:.0f},{:.0f},{:.0f}]", std::ceil(size.x * s), std::ceil(height(size.y)),
-                  std::ceil(size.z * s)),
-      fmt::format("heat.gamma={:.9f}", n.gamma * s * s * dt / slowness(setting.neighbours)),
-      fmt::format("heat.neighbours={}", setting.neighbours),
-      fmt::format("heat.visibility_every={}", setting.interval),
-      fmt::format("heat.rays_per_face={}", setting.rays)};
+  std::vector<std::string> sets{fmt::format("grid.size=[{:.0f},{:.0f},{:.0f}]", std::ceil(size.x * s),
+                                            std::ceil(height(size.y)), std::ceil(size.z * s)),
+                                fmt::format("heat.gamma={:.9f}", gamma_at(setting, n.gamma)),
+                                fmt::format("heat.neighbours={}", setting.neighbours),
+                                fmt::format("heat.visibility_every={}", setting.interval),
+                                fmt::format("heat.rays_per_face={}", setting.rays)};
   const auto set = [&](std::initializer_list<std::string> more) { sets.insert(sets.end(), more); };
   if (floor) set({fmt::format("inert.0.thickness={}", kFloorOfGrid)});
   if (name == "cello")
@@ -92,11 +97,14 @@ std::vector<std::string> Subject::sets(const Setting& setting) const {
   }
   if (viscous)
     set({fmt::format("flow.viscous.kappa={:.9f}", n.kappa * dt / s),
-         fmt::format("flow.viscous.yield={:.9f}", n.yield * s),
-         setting.substeps == 0 ? "flow.viscous.substeps=\"auto\""
-                               : fmt::format("flow.viscous.substeps={}", setting.substeps),
-         fmt::format("flow.viscous.substeps_max={}", setting.substeps_max)});
+         fmt::format("flow.viscous.yield={:.9f}", n.yield * s), "flow.viscous.substeps=\"auto\"",
+         fmt::format("flow.viscous.substeps_max={}", setting.substeps_max),
+         fmt::format("flow.viscous.stages_max={}", setting.stages_max)});
   return sets;
+}
+
+bool Subject::allows(const Setting& setting) const {
+  return gamma_at(setting, numbers_of(name).gamma) <= kMostGamma;
 }
 
 Scale Subject::scale(const Setting& setting) const {

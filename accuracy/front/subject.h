@@ -11,15 +11,16 @@
 
 namespace voxmelt::accuracy::front {
 
-// A setting makes one choice on every axis of the sweep.
+// A setting makes one choice on every axis of the sweep. As it stands here it is what a scene has whose file
+// says nothing, on the grid of that file.
 struct Setting {
-  double grid = 0.375;  // cells per cell of the scene's file
-  double step = 1;      // length of a step, in 1 / grid steps of the scene's file
+  double grid = 1;  // cells per cell of the scene's file
+  double step = 1;  // length of a step, in 1 / grid steps of the scene's file
   int neighbours = 6;
-  int rays = 1;          // per face
-  int interval = 8;      // steps from one visibility to the next
-  int substeps = 0;      // viscous law: sub-steps of a step; 0: as many as the state needs
-  int substeps_max = 8;  // if `substeps` is 0: at most this many
+  int rays = 1;           // per face
+  int interval = 1;       // steps from one visibility to the next
+  int substeps_max = 64;  // viscous law: sub-steps of a step, at most
+  int stages_max = 1;     // viscous law: stages in which heads relax, at most
   Arithmetic arithmetic = kEngine;
   friend bool operator==(const Setting&, const Setting&) = default;
 };
@@ -37,6 +38,8 @@ struct Subject {
   // distance is in cells. The parts that fall and spread in a step go with a step's length while it is below
   // 1. In a longer one they stay: a cell cannot give more than it has.
   std::vector<std::string> sets(const Setting& setting) const;
+  // Tells if `heat.gamma` stays within its range, which ends a long step.
+  bool allows(const Setting& setting) const;
   Scale scale(const Setting& setting) const;
   std::uint32_t steps_to(const Setting& setting, std::uint32_t sample_index) const;  // counts from 1
 };

@@ -1,4 +1,4 @@
-// The front of speed against error has a JSON file, a table, a page, and a summary in words.
+// The front of speed against error has a JSON file, a table of points, a page, and one for the docs.
 #pragma once
 
 #include <string>
@@ -15,7 +15,6 @@ struct FrontReport {
   double seconds = 0;
 
   int points() const;
-  int axes() const;  // axes along which at least one point was measured
 };
 
 std::string json_text(const FrontReport& report);
@@ -23,6 +22,7 @@ std::string csv_text(const FrontReport& report);
 std::string html_text(const FrontReport& report);
 std::string markdown_text(const FrontReport& report);
 
-std::string percent_text(double part);  // "0.034 %"
+std::string percent_text(double part);                        // "0.034 %"
+std::string axes_text(const std::vector<front::Axis>& axes);  // "step, rays"
 
 }  // namespace voxmelt::accuracy

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace voxmelt::accuracy {
 namespace {
 
 constexpr double kWidth = 440, kHeight = 320, kLeft = 78, kRight = 424, kTop = 18, kBottom = 264;
-constexpr double kLeastError = 1e-10, kRoom = 1.35;
+constexpr double kRoom = 1.35;
 
 using page::Axis;
 using page::escaped;
@@ -22,7 +23,7 @@ using page::text;
 
 std::string line(double x1, double y1, double x2, double y2) { return page::line(x1, y1, x2, y2, "grid"); }
 
-double shown(double error) { return 100 * std::max(error, kLeastError); }  // in percent
+double percent(double error) { return 100 * error; }
 
 struct Range {
   double low, high;
@@ -53,41 +54,49 @@ std::string grid_of(const Axis& x, const Axis& y) {
   return svg;
 }
 
+// Joins the dots of each colour, the fastest first.
+std::string lines_of(const std::vector<FrontDot>& dots, const Axis& x, const Axis& y) {
+  std::map<std::size_t, std::map<double, double>> errors;  // by colour and seconds
+  for (const FrontDot& dot : dots)
+    if (dot.joined) errors[dot.colour][dot.seconds] = dot.error;
+  std::string svg;
+  for (const auto& [colour, line_of_colour] : errors) {
+    std::string path;
+    for (const auto& [seconds, error] : line_of_colour)
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(seconds), y(percent(error)));
+    svg += fmt::format(R"(<path class="joined k{}" d="{}"/>)", colour, path);
+  }
+  return svg;
+}
+
+std::string drawn(const FrontDot& dot, const Axis& x, const Axis& y) {
+  const double at_x = x(dot.seconds), at_y = y(percent(dot.error));
+  return fmt::format(R"(<circle class="f{}" cx="{:.1f}" cy="{:.1f}" r="4.5"><title>{}</title></circle>)",
+                     dot.colour, at_x, at_y, escaped(dot.hover)) +
+         (at_x > kRight - 60 ? text(at_x - 7, at_y + 4, "end", dot.label, "name")
+                             : text(at_x + 7, at_y + 4, "start", dot.label, "name"));
+}
+
 }  // namespace
 
 std::string front_svg(const FrontChart& chart) {
   if (chart.dots.empty()) return "";
-  const Range xs =
-      range(chart.dots, chart.logarithmic_x ? kRoom : 1, [](const FrontDot& d) { return d.place.cost; });
-  const Range ys = range(chart.dots, kRoom, [](const FrontDot& d) { return shown(d.place.error); });
-  const Axis x(chart.logarithmic_x ? xs.low : 0, xs.high, chart.logarithmic_x, kLeft, kRight);
+  Range xs = range(chart.dots, kRoom, [](const FrontDot& d) { return d.seconds; });
+  xs = {std::min(xs.low, chart.usual_seconds), std::max(xs.high, chart.usual_seconds)};
+  const Range ys = range(chart.dots, kRoom, [](const FrontDot& d) { return percent(d.error); });
+  const Axis x(xs.low, xs.high, true, kLeft, kRight);
   const Axis y(ys.low, ys.high, true, kBottom, kTop);
 
   std::string svg = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", kWidth, kHeight,
                                 escaped(chart.title));
   svg += grid_of(x, y);
+  svg += page::line(x(chart.usual_seconds), kTop, x(chart.usual_seconds), kBottom, "gate");
   svg += text((kLeft + kRight) / 2, kHeight - 10, "middle", chart.x_label, "label");
   svg += fmt::format(
       R"svg(<text class="label" transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)svg",
       (kTop + kBottom) / 2, escaped(chart.y_label));
-
-  std::vector<front::Place> places;
-  for (const FrontDot& dot : chart.dots) places.push_back(dot.place);
-  std::string path;
-  for (const std::size_t i : front::undominated(places))
-    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(places[i].cost),
-                        y(shown(places[i].error)));
-  svg += fmt::format(R"(<path class="exact front" d="{}"/>)", path);
-
-  for (const FrontDot& dot : chart.dots) {
-    const double at_x = x(dot.place.cost), at_y = y(shown(dot.place.error));
-    if (dot.usual) svg += fmt::format(R"(<circle class="ring" cx="{:.1f}" cy="{:.1f}" r="9"/>)", at_x, at_y);
-    svg += fmt::format(R"(<circle class="f{}" cx="{:.1f}" cy="{:.1f}" r="5"><title>{}</title></circle>)",
-                       dot.colour, at_x, at_y, escaped(dot.hover));
-    if (!dot.label.empty())
-      svg += at_x > kRight - 60 ? text(at_x - 8, at_y - 8, "end", dot.label, "name")
-                                : text(at_x + 8, at_y - 6, "start", dot.label, "name");
-  }
+  svg += lines_of(chart.dots, x, y);
+  for (const FrontDot& dot : chart.dots) svg += drawn(dot, x, y);
   return svg + "</svg>";
 }
 

@@ -4,101 +4,83 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 #include <string>
-#include <vector>
 
-#include "accuracy/front/pareto.h"
 #include "report/accuracy/front.h"
 
 namespace voxmelt::accuracy {
 namespace {
 
 using json = nlohmann::ordered_json;
-using front::Measured;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-json or_null(const std::optional<double>& value) { return value ? number(*value) : json(nullptr); }
 
-json errors_json(const front::Errors& errors) {
-  json out = {{"largest", number(errors.largest())}};
+json setting_json(const front::Setting& s) {
+  return {{"grid", s.grid},
+          {"step", s.step},
+          {"rays_per_face", s.rays},
+          {"visibility_every", s.interval},
+          {"substeps_max", s.substeps_max},
+          {"stages_max", s.stages_max},
+          {"neighbours", s.neighbours}};
+}
+
+json point_json(const front::Swept& swept, const front::Measured& point) {
+  json out = {{"scene", swept.subject->scene},
+              {"axis", front::name_of(point.axis)},
+              {"name", front::text_of(point.axis, point.setting)}};
+  out.update(setting_json(point.setting));
+  out["usual"] = point.setting == swept.usual;
+  out["reference"] = point.reference;
+  out["error"] = number(point.difference.error());
   for (std::size_t i = 0; i < front::kCurves.size(); ++i)
-    out[front::kCurveNames[i]] = number(errors.*front::kCurves[i]);
+    out[fmt::format("{}_error", front::kCurveNames[i])] = number(point.difference.curves.*front::kCurves[i]);
+  out["map_error"] = number(point.difference.map);
+  out["run_seconds"] = number(point.seconds);
   return out;
 }
-json errors_json(const std::optional<front::Errors>& errors) {
-  return errors ? errors_json(*errors) : json(nullptr);
-}
 
-const char* format_of(front::Arithmetic arithmetic) {
-  constexpr const char* kNames[] = {"u8", "u16", "u32", "float", "double"};
-  return kNames[static_cast<std::size_t>(arithmetic.number)];
-}
-const char* rounding_of(front::Arithmetic arithmetic) {
-  constexpr const char* kNames[] = {"truncate", "nearest", "dithered"};
-  return front::is_real(arithmetic.number) ? "" : kNames[static_cast<std::size_t>(arithmetic.rounding)];
-}
-
-json reference_json(const front::Setting& s) {
-  return {{"step", s.step},
-          {"neighbours", s.neighbours},
-          {"rays_per_face", s.rays},
-          {"visibility_every", s.interval},
-          {"substeps_max", s.substeps_max}};
-}
-
-json point_json(const front::Swept& swept, std::size_t index, const std::set<std::size_t>& on_front,
-                const std::set<std::size_t>& on_bits_front) {
-  const Measured& point = swept.points[index];
-  const front::Setting& s = point.choice.setting;
-  return {{"scene", swept.subject->scene},
-          {"axis", front::name_of(point.choice.axis)},
-          {"name", front::text_of(point.choice)},
-          {"grid", s.grid},
-          {"step", s.step},
-          {"neighbours", s.neighbours},
-          {"rays_per_face", s.rays},
-          {"visibility_every", s.interval},
-          {"substeps", swept.subject->viscous ? json(s.substeps) : json(nullptr)},
-          {"format", format_of(s.arithmetic)},
-          {"rounding", rounding_of(s.arithmetic)},
-          {"computed_by", point.twin ? "twin" : "engine"},
-          {"arithmetic_error", errors_json(point.arithmetic)},
-          {"model_error", errors_json(point.model)},
-          {"whole_error", errors_json(point.whole)},
-          {"grid_error", errors_json(point.grid)},
-          {"state_bits", point.cost.state_bits},
-          {"run_seconds", or_null(point.cost.run_seconds)},
-          {"cells_per_second", number(point.cost.cells_per_second)},
-          {"baseline_cells_per_second", or_null(point.cost.baseline_cells_per_second)},
-          {"speed_over_twin_in_u16", point.twin ? number(point.cost.over_twin) : json(nullptr)},
-          {"on_the_front", on_front.count(index) > 0},
-          {"on_the_front_of_formats", on_bits_front.count(index) > 0}};
-}
-
-std::set<std::size_t> front_of(const front::Plotted& plotted) {
-  std::set<std::size_t> found;
-  for (const std::size_t i : front::undominated(plotted.places)) found.insert(plotted.point[i]);
-  return found;
-}
-
-std::vector<json> points_json(const FrontReport& report) {
-  std::vector<json> points;
-  for (const front::Swept& swept : report.swept) {
-    const auto on_front = front_of(front::run_time_against_whole_error(swept)),
-               on_bits_front = front_of(front::bits_against_arithmetic_error(swept));
-    for (std::size_t i = 0; i < swept.points.size(); ++i)
-      points.push_back(point_json(swept, i, on_front, on_bits_front));
-  }
+json points_json(const FrontReport& report) {
+  json points = json::array();
+  for (const front::Swept& swept : report.swept)
+    for (const front::Measured& point : swept.points) points.push_back(point_json(swept, point));
   return points;
+}
+
+json pick_json(const front::Pick& pick) {
+  json without = json::array();
+  for (const front::Axis axis : pick.without) without.push_back(front::name_of(axis));
+  return {{"bound", pick.bound},
+          {"none", pick.none},
+          {"setting", pick.none ? json(nullptr) : setting_json(pick.setting)},
+          {"without", without},
+          {"error_sum", number(pick.sum)},
+          {"curves_alone", pick.curves_alone},
+          {"run_seconds", pick.none ? json(nullptr) : number(pick.seconds)}};
+}
+
+json format_json(const front::Format& format) {
+  return {{"name", front::name_of(format.arithmetic)},
+          {"error", number(format.error)},
+          {"state_bits", format.state_bits}};
+}
+
+json scene_json(const front::Swept& swept) {
+  json picks = json::array(), formats = json::array();
+  for (const front::Pick& pick : swept.picks) picks.push_back(pick_json(pick));
+  for (const front::Format& format : swept.formats) formats.push_back(format_json(format));
+  return {{"scene", swept.subject->scene},
+          {"usual", setting_json(swept.usual)},
+          {"usual_seconds", number(swept.usual_seconds)},
+          {"noise_of_curves", number(swept.noise.curves)},
+          {"noise_of_map", number(swept.noise.map)},
+          {"picks", picks},
+          {"formats", formats}};
 }
 
 std::string cell_text(const json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return fmt::format("\"{}\"", value.get<std::string>());
-  if (value.is_object()) return cell_text(value["largest"]);
-  return value.dump();
+  return value.is_string() ? fmt::format("\"{}\"", value.get<std::string>()) : value.dump();
 }
 
 }  // namespace
@@ -109,15 +91,6 @@ int FrontReport::points() const {
   return static_cast<int>(count);
 }
 
-int FrontReport::axes() const {
-  std::set<front::Axis> found;
-  for (const front::Swept& one : swept)
-    for (const Measured& point : one.points)
-      if (point.choice.axis != front::Axis::usual && point.choice.axis != front::Axis::several)
-        found.insert(point.choice.axis);
-  return static_cast<int>(found.size());
-}
-
 std::string percent_text(double part) {
   const double percent = 100 * part;
   if (percent == 0) return "0 %";
@@ -126,18 +99,12 @@ std::string percent_text(double part) {
 
 std::string json_text(const FrontReport& report) {
   json scenes = json::array();
-  for (const front::Swept& swept : report.swept)
-    scenes.push_back({{"scene", swept.subject->scene},
-                      {"grid", swept.reference.grid},
-                      {"reference", reference_json(swept.reference)},
-                      {"finest_grid", swept.finest_grid.grid},
-                      {"error_between_seeds", number(swept.seed_error)}});
+  for (const front::Swept& swept : report.swept) scenes.push_back(scene_json(swept));
   const json all = {{"version", report.version},
                     {"implementation", report.implementation},
                     {"threads", 1},
                     {"quick", report.extent == front::Extent::quick},
                     {"seconds", report.seconds},
-                    {"axes", report.axes()},
                     {"scenes", scenes},
                     {"points", points_json(report)}};
   return all.dump(1, ' ', false, json::error_handler_t::replace) + "\n";

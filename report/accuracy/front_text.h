@@ -1,19 +1,28 @@
-// The page and docs/results/front.md share these texts.
+// The page and docs/results/front.md share these tables and texts.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
-#include "accuracy/front/words.h"
 #include "report/accuracy/front.h"
 
 namespace voxmelt::accuracy {
 
-std::string seconds_text(double seconds);               // "0.13 s"
-std::string pick_text(const front::Pick& pick);         // "step 1/2: whole error 0.9 % (model ...)"
-std::string format_pick_text(const front::Pick& pick);  // "u16 nearest: 0.05 %, 50 bits"
-std::string title_of(const front::Swept& swept);        // "cello" or "cello, viscous law"
-// Says what the usual setting gives, and if none beats it.
-std::string usual_text(const front::Swept& swept);
-extern const char* const kHowErrorsAreMeasured[4];  // paragraphs
+struct FrontTable {
+  std::vector<std::string> head;
+  std::size_t texts = 1;  // so many columns are texts, and the others numbers
+  std::vector<std::vector<std::string>> rows{};
+};
+FrontTable picks_table(const FrontReport& report);
+FrontTable points_table(const front::Swept& swept);
+FrontTable formats_table(const FrontReport& report);  // without rows if no scene has formats
+
+std::string seconds_text(double seconds);                               // "0.13 s"
+std::string title_of(const front::Swept& swept);                        // "cello" or "cello, viscous law"
+std::string noise_text(const front::Swept& swept);                      // says what other random bits change
+std::string about_text(const FrontReport& report);                      // says what was run
+std::vector<std::string> texts_below_picks(const FrontReport& report);  // paragraphs
+extern const char* const kFormatsText;
 
 }  // namespace voxmelt::accuracy

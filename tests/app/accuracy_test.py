@@ -55,21 +55,28 @@ class Accuracy(unittest.TestCase):
     def test_the_front(self):
         result, report = self.accuracy("--front", "goblet", "--out", "out", "--report", "r.json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        points = report["points"]
-        self.assertIn(f"{len(points)} points along {report['axes']} axes", result.stdout)
+        points, scene = report["points"], report["scenes"][0]
+        self.assertIn(f"{len(points)} points", result.stdout)
         rows = list(csv.DictReader((self.folder / "out/front.csv").open()))
         self.assertEqual([row["name"] for row in rows], [point["name"] for point in points])
+        curves = ("liquid_error", "heat_error", "height_error", "radius_error")
         for row, point in zip(rows, points):
             self.assertEqual(point["scene"], "goblet")
-            self.assertEqual(point["grid"] == report["scenes"][0]["grid"], point["whole_error"] is not None)
-            if point["whole_error"]:
-                self.assertEqual(float(row["whole_error"]), point["whole_error"]["largest"])
-        # The front by its definition, from the report alone.
-        runs = [(p["run_seconds"], p["whole_error"]["largest"], p) for p in points
-                if p["computed_by"] == "engine" and p["whole_error"]]
-        for seconds, error, point in runs:
-            beaten = any(s <= seconds and e <= error and (s, e) != (seconds, error) for s, e, _ in runs)
-            self.assertEqual(point["on_the_front"], not beaten, point["name"])
+            self.assertEqual(float(row["error"]), point["error"])
+            self.assertEqual(point["error"], max(point[key] for key in (*curves, "map_error")))
+        # The picks by their definition, from the report alone. The goblet has one axis to pick from.
+        steps = [p for p in points if p["axis"] == "step" and not p["reference"]]
+        usual = next(p for p in steps if p["usual"])
+        self.assertEqual([pick["bound"] for pick in scene["picks"]], [0.05, 0.01, 0.001])
+        for pick in scene["picks"]:
+            alone = scene["noise_of_map"] > pick["bound"]
+            self.assertEqual(pick["curves_alone"], alone)
+            errors = {p["step"]: max(p[key] for key in curves) if alone else p["error"] for p in steps}
+            kept = [p for p in steps if max(errors[p["step"]], scene["noise_of_curves"]) <= pick["bound"]]
+            best = kept[0] if kept else usual  # the coarsest
+            self.assertEqual(pick["without"], [] if kept else ["step"])
+            self.assertEqual(pick["setting"] and pick["setting"]["step"], best["step"] if kept else None)
+            self.assertEqual(pick["error_sum"], errors[best["step"]])
         page = (self.folder / "out/front.html").read_text()
         self.assertNotIn("http", page)
         self.assertIn("Which setting to take", page)

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "accuracy/front/depth_map.h"
+#include "accuracy/front/pick.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 
@@ -17,23 +20,34 @@ namespace voxmelt::accuracy::front {
 namespace {
 
 const Subject& bunny() { return all_subjects()[3]; }
+const Subject& viscous_bunny() { return all_subjects()[7]; }
 
-scene::Scene load(const Setting& setting) {
-  return scene::load(VOXMELT_SCENES_FOLDER "/bunny.toml", bunny().sets(setting));
+scene::Scene load(const Subject& subject, const Setting& setting, const std::string& more = "run.steps=1") {
+  std::vector<std::string> sets = subject.sets(setting);
+  sets.push_back(more);
+  return scene::load(VOXMELT_SCENES_FOLDER "/" + subject.scene + ".toml", sets);
 }
-Curves by_reference(const Setting& setting) {  // the slowest implementation
-  const scene::Scene scene = load(setting);
-  run::Simulation simulation(scene.parameters, scene.initial, *run::implementations().find("reference"));
+
+struct Ended {
   Curves curves;
-  for (std::uint32_t i = 1; i <= bunny().samples; ++i) {
-    while (simulation.steps_done() < bunny().steps_to(setting, i)) simulation.step();
-    curves.push_back(sample_of(simulation.volume(), bunny().scale(setting)));
+  DepthMap map;
+};
+Ended run_of(const Subject& subject, const Setting& setting, const step::Implementation& implementation,
+             const std::string& more = "run.steps=1") {
+  const scene::Scene scene = load(subject, setting, more);
+  run::Simulation simulation(scene.parameters, scene.initial, implementation);
+  Curves curves;
+  for (std::uint32_t i = 1; i <= subject.samples; ++i) {
+    while (simulation.steps_done() < subject.steps_to(setting, i)) simulation.step();
+    curves.push_back(sample_of(simulation.volume(), subject.scale(setting)));
   }
-  return curves;
+  return {curves, map_of(simulation.volume(), setting.grid)};
 }
-Curves in_double(const Setting& setting) {
-  const scene::Scene scene = load(setting);
-  const std::unique_ptr<Twin> twin = make_twin(kExact, scene.parameters, scene.initial);
+const step::Implementation& widest() { return run::implementations().widest(); }
+
+Curves by_twin(const Setting& setting) {
+  const scene::Scene scene = load(bunny(), setting);
+  const std::unique_ptr<Twin> twin = make_twin(setting.arithmetic, scene.parameters, scene.initial);
   Curves curves;
   for (std::uint32_t i = 1, done = 0; i <= bunny().samples; ++i) {
     for (; done < bunny().steps_to(setting, i); ++done) twin->step();
@@ -45,151 +59,124 @@ Curves in_double(const Setting& setting) {
 const Swept& quick() {
   static const Swept swept = [] {
     Conditions conditions;
-    conditions.implementation = &run::implementations().widest();
-    conditions.threads = 2;
+    conditions.implementation = &widest();
     conditions.scenes = VOXMELT_SCENES_FOLDER;
-    return sweep(bunny(), Extent::quick, conditions, [](const Choice&) {});
+    return sweep(bunny(), Extent::quick, conditions, [] {});
   }();
   return swept;
 }
 
-const Measured& point(const std::string& text) {
+const Measured& point(Axis axis, const std::string& text) {
   for (const Measured& one : quick().points)
-    if (text_of(one.choice) == text) return one;
+    if (one.axis == axis && text_of(one.axis, one.setting) == text) return one;
   ADD_FAILURE() << "no point " << text;
   return quick().points.front();
 }
 
-// The three errors are what they say, computed here from runs of other programs.
-TEST(Sweep, ErrorsOfTheUsualSetting) {
+void expect_difference(const Measured& measured, const Ended& found, const Ended& reference) {
+  for (const auto curve : kCurves)
+    EXPECT_DOUBLE_EQ(measured.difference.curves.*curve, errors(found.curves, reference.curves).*curve);
+  EXPECT_DOUBLE_EQ(measured.difference.map, part_elsewhere(found.map, reference.map));
+  EXPECT_GT(measured.difference.map, 0);
+}
+
+// Each axis has its own reference. The usual run is computed by the slowest implementation.
+void expect_errors_along_the_axes() {
   const Setting usual = usual_setting(Extent::quick);
-  const Setting finest{.grid = 0.25, .step = 0.5, .neighbours = 26, .rays = 16, .interval = 1};
-  const Curves found = by_reference(usual), exact = in_double(usual), reference = in_double(finest);
-  const Measured& measured = point("the usual setting");
-  for (const auto curve : kCurves) {
-    EXPECT_DOUBLE_EQ((*measured.arithmetic).*curve, errors(found, exact).*curve);
-    EXPECT_DOUBLE_EQ((*measured.model).*curve, errors(exact, reference).*curve);
-    EXPECT_DOUBLE_EQ((*measured.whole).*curve, errors(found, reference).*curve);
+  const auto with = [&](auto Setting::*what, auto value) {
+    Setting setting = usual;
+    setting.*what = value;
+    return run_of(bunny(), setting, widest());
+  };
+  const Ended run = run_of(bunny(), usual, *run::implementations().find("reference"));
+  expect_difference(point(Axis::step, "step x 1"), run, with(&Setting::step, 0.5));
+  expect_difference(point(Axis::rays, "rays_per_face = 1"), run, with(&Setting::rays, 16));
+  expect_difference(point(Axis::visibility, "visibility_every = 8"), with(&Setting::interval, 8), run);
+  expect_difference(point(Axis::grid, "grid 0.25"), with(&Setting::grid, 0.25), run);
+  expect_difference(point(Axis::neighbours, "neighbours = 26"), with(&Setting::neighbours, 26), run);
+}
+
+TEST(Sweep, TheErrorIsTheLargestOfCurvesAndMap) {
+  const Difference curves{{0.1, 0, 0.3, 0}, 0.2}, map{{0.1, 0, 0, 0}, 0.2};
+  EXPECT_EQ(curves.error(), 0.3);
+  EXPECT_EQ(map.error(), 0.2);
+}
+
+// The noise is the largest difference between the usual run and one with another seed.
+void expect_noise_of_three_seeds() {
+  const Setting usual = usual_setting(Extent::quick);
+  const Ended own = run_of(bunny(), usual, widest());
+  Noise noise;
+  for (const char* seed : {"run.seed=1001", "run.seed=1002", "run.seed=1003"}) {
+    const Ended other = run_of(bunny(), usual, widest(), seed);
+    noise.curves = std::max(noise.curves, errors(other.curves, own.curves).largest());
+    noise.map = std::max(noise.map, part_elsewhere(other.map, own.map));
   }
-  EXPECT_GT(measured.model->largest(), 10 * measured.arithmetic->largest());
-  EXPECT_DOUBLE_EQ(measured.grid->largest(), errors(found, by_reference({.grid = 0.5})).largest());
+  EXPECT_GT(noise.curves, 0);
+  EXPECT_GT(noise.map, 0);
+  EXPECT_DOUBLE_EQ(quick().noise.curves, noise.curves);
+  EXPECT_DOUBLE_EQ(quick().noise.map, noise.map);
 }
 
-TEST(Sweep, ErrorsOfAnotherSetting) {
-  Setting coarse = usual_setting(Extent::quick);
-  coarse.interval = 32;
-  const Curves found = by_reference(coarse), exact = in_double(coarse);
-  EXPECT_DOUBLE_EQ(point("visibility every 32 steps").arithmetic->largest(), errors(found, exact).largest());
+// The sweep takes it for granted that nothing is random under the viscous law.
+TEST(Sweep, TheViscousLawHasNoNoise) {
+  const Setting small{.grid = 0.25};
+  const Ended own = run_of(viscous_bunny(), small, widest()),
+              other = run_of(viscous_bunny(), small, widest(), "run.seed=1001");
+  EXPECT_EQ(errors(other.curves, own.curves).largest(), 0);
+  EXPECT_EQ(part_elsewhere(other.map, own.map), 0);
+  EXPECT_FALSE(own.map.empty());
 }
 
-// The twin in the engine's format is the engine, so it is as wrong. Double has no error of arithmetic, and
-// the reference's own setting has none of the model.
-TEST(Sweep, PointsThatMustAgree) {
-  const Measured &usual = point("the usual setting"), &twin = point("u16 dithered"), &exact = point("double");
-  EXPECT_FALSE(usual.twin);
-  EXPECT_TRUE(twin.twin);
-  EXPECT_EQ(twin.whole->largest(), usual.whole->largest());
-  EXPECT_EQ(twin.arithmetic->largest(), usual.arithmetic->largest());
-  EXPECT_EQ(exact.arithmetic->largest(), 0);
-  EXPECT_EQ(exact.model->largest(), usual.model->largest());
-  EXPECT_EQ(exact.whole->largest(), exact.model->largest());
-  const Measured& finest = point("step 1/2, 26 neighbours, 16 rays, visibility every 1");
-  EXPECT_EQ(finest.model->largest(), 0);
-  EXPECT_EQ(finest.whole->largest(), finest.arithmetic->largest());
-  EXPECT_GT(finest.arithmetic->largest(), 0);
-}
-
-TEST(Sweep, FormatsAreInTheirOrder) {
-  const auto arithmetic = [](const char* name) { return point(name).arithmetic->largest(); };
-  EXPECT_GT(arithmetic("u8 dithered"), 10 * arithmetic("u16 dithered"));
-  EXPECT_GT(arithmetic("u16 dithered"), 10 * arithmetic("u32 dithered"));
-  EXPECT_GT(arithmetic("u16 truncated"), 1.5 * arithmetic("u16 dithered"));
-  EXPECT_LT(arithmetic("float"), 0.001);
-  EXPECT_EQ(point("u8 dithered").cost.state_bits, 26);
-  EXPECT_EQ(point("u16 dithered").cost.state_bits, 50);
-  EXPECT_EQ(point("the usual setting").cost.state_bits, 50);
-  EXPECT_EQ(point("u32 dithered").cost.state_bits, 98);
-  EXPECT_EQ(point("double").cost.state_bits, 194);
-}
-
-TEST(Sweep, EachPointHasItsCosts) {
+void expect_references_and_times() {
   for (const Measured& one : quick().points) {
-    const std::string name = text_of(one.choice);
-    EXPECT_GT(one.cost.cells_per_second, 1e5) << name;
-    EXPECT_EQ(one.cost.run_seconds.has_value(), !one.twin) << name;
-    EXPECT_EQ(one.cost.baseline_cells_per_second.has_value(), !one.twin) << name;
-    EXPECT_EQ(one.cost.over_twin > 0, one.twin) << name;
-    EXPECT_EQ(one.whole.has_value(), one.choice.axis != Axis::grid) << name;
-    EXPECT_EQ(one.grid.has_value(), one.choice.axis == Axis::grid || one.choice.axis == Axis::usual) << name;
-  }
-  EXPECT_EQ(point("u16 dithered").cost.over_twin, 1);
-  EXPECT_GT(quick().seed_error, 0);
-}
-
-// Choices that are compared are on one grid. The full set is as large as it says.
-TEST(Choices, AreOnOneGridAndMany) {
-  std::size_t points = 0;
-  std::set<Axis> axes;
-  for (const Subject& subject : all_subjects())
-    for (const Extent extent : {Extent::quick, Extent::full}) {
-      const std::vector<Choice> all = choices(subject, extent);
-      const Setting usual = usual_setting(extent);
-      EXPECT_EQ(all.front().axis, Axis::usual);
-      EXPECT_EQ(all.front().setting, usual);
-      EXPECT_EQ(reference_of(subject, extent).grid, usual.grid);
-      std::set<std::string> names;
-      for (const Choice& choice : all) {
-        EXPECT_EQ(choice.setting.grid == usual.grid, choice.axis != Axis::grid) << text_of(choice);
-        EXPECT_TRUE(names.insert(text_of(choice)).second) << subject.scene << ": twice " << text_of(choice);
-        EXPECT_EQ(choice.setting.arithmetic == kEngine || choice.axis == Axis::format ||
-                      choice.axis == Axis::rounding,
-                  true);
-        if (extent == Extent::full) axes.insert(choice.axis);
-      }
-      if (extent == Extent::full) points += all.size();
-    }
-  EXPECT_GE(points, 40u);
-  EXPECT_GE(axes.size(), 5u + 2);  // the usual one and several at once are no axes
-}
-
-// A choice changes one axis at a time: it departs from the usual setting in nothing else.
-TEST(Choices, DepartAlongTheirAxisOnly) {
-  for (const Choice& choice : choices(bunny(), Extent::full)) {
-    Setting back = choice.setting;
-    const Setting usual = usual_setting(Extent::full);
-    switch (choice.axis) {
-      case Axis::format:
-      case Axis::rounding:
-        back.arithmetic = usual.arithmetic;
-        break;
-      case Axis::neighbours:
-        back.neighbours = usual.neighbours;
-        break;
-      case Axis::rays:
-        back.rays = usual.rays;
-        break;
-      case Axis::interval:
-        back.interval = usual.interval;
-        break;
-      case Axis::step:
-        back.step = usual.step;
-        break;
-      case Axis::grid:
-        back.grid = usual.grid;
-        break;
-      case Axis::substeps:
-        back.substeps = usual.substeps;
-        break;
-      case Axis::several:
-        continue;
-      case Axis::usual:
-        break;
-    }
-    EXPECT_EQ(back, usual) << text_of(choice);
-    if (choice.axis != Axis::usual && choice.axis != Axis::rounding) {
-      EXPECT_NE(choice.setting, usual) << text_of(choice);
+    const std::string name = text_of(one.axis, one.setting);
+    EXPECT_GT(one.seconds, 1e-4) << name;
+    EXPECT_EQ(one.difference.error() == 0, one.reference) << name;
+    if (one.setting == quick().usual) {
+      EXPECT_EQ(one.seconds, quick().usual_seconds) << name;
     }
   }
+}
+
+void expect_picks_of_the_points() {
+  ASSERT_EQ(quick().picks.size(), std::size(kBounds));
+  for (std::size_t i = 0; i < quick().picks.size(); ++i) {
+    const Pick wanted = pick(quick().points, quick().usual, quick().noise, kBounds[i]);
+    EXPECT_EQ(quick().picks[i].setting, wanted.setting);
+    EXPECT_EQ(quick().picks[i].sum, wanted.sum);
+    EXPECT_GT(quick().picks[i].seconds, 0);
+  }
+}
+
+// The twin in the engine's format is the engine. Formats are told beside double.
+void expect_formats_in_their_order() {
+  const auto format = [](const std::string& name) {
+    for (const Format& one : quick().formats)
+      if (name_of(one.arithmetic) == name) return one;
+    ADD_FAILURE() << name;
+    return Format{};
+  };
+  Setting exact = setting_of_formats();
+  exact.arithmetic = kExact;
+  const Ended engine = run_of(bunny(), setting_of_formats(), widest());
+  EXPECT_DOUBLE_EQ(format("u16 dithered").error, errors(engine.curves, by_twin(exact)).largest());
+  EXPECT_GT(format("u8 dithered").error, 10 * format("u16 dithered").error);
+  EXPECT_GT(format("u16 dithered").error, 10 * format("u32 dithered").error);
+  EXPECT_GT(format("u16 truncated").error, 1.5 * format("u16 dithered").error);
+  EXPECT_LT(format("float").error, 0.001);
+  EXPECT_EQ(format("u8 dithered").state_bits, 26);
+  EXPECT_EQ(format("u16 dithered").state_bits, 50);
+  EXPECT_EQ(format("u32 dithered").state_bits, 98);
+}
+
+// It is one test, because a process of its own would sweep anew for each.
+TEST(Sweep, OfTheBunny) {
+  expect_errors_along_the_axes();
+  expect_noise_of_three_seeds();
+  expect_references_and_times();
+  expect_picks_of_the_points();
+  expect_formats_in_their_order();
 }
 
 }  // namespace
