@@ -2,6 +2,7 @@
 #include "state.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace oracle {
 namespace {

@@ -1,7 +1,6 @@
 // A cell that goes can part a piece only if what is left around it does not hold together.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "kernel/automaton/state/bit_plane.h"

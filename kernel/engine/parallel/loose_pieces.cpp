@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/engine/parallel/local_parts.h"

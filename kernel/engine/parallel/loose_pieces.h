@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "kernel/automaton/state/bit_plane.h"
 #include "kernel/automaton/state/changed_rows.h"

@@ -3,6 +3,7 @@
 // tiles and sleeping.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "kernel/automaton/rule/random.h"

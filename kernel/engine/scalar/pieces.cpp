@@ -1,5 +1,6 @@
 #include "kernel/engine/scalar/pieces.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>

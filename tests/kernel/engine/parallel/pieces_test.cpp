@@ -124,7 +124,7 @@ TEST_P(Pieces, ALayerAboveADryOneIsNotSunk) {
   EXPECT_EQ(fall(v, 1, {true, 1, 1000}), 1) << "it would float if layers above the pit counted";
 }
 
-// What held a piece goes, though no solid does.
+// The inert cell that held a piece goes, and no solid does.
 TEST_P(Pieces, FallIfTheInertCellGoes) {
   Parameters p = viscous(0.02);
   p.pieces.fall = true;
