@@ -19,7 +19,7 @@ constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and c
 // Is pi / 8: up to here a checkerboard of heat loses at least half of its swing in each step. With 26
 // neighbours the corners damp it, and no wave that changes its sign keeps more than a fifth.
 constexpr double kCalmGamma = 0.3927;
-constexpr double kLargestPower = 4194303;  // x 2^28 fits 50 bits
+constexpr double kLargestPower = 4194303;     // x 2^28 fits 50 bits
 constexpr double kLargestExchange = 0.66666;  // 2 / 3: a corner exposed on three axes stays within the air
 constexpr double kSmallestExchange = 1 / 65536.0;  // less is nothing in the rule
 constexpr double kLargestRadius = 8192;

@@ -89,7 +89,8 @@ std::string axes_text(const std::vector<Axis>& axes) {
 
 FrontTable picks_table(const FrontReport& report) {
   FrontTable table{
-      {"scene", "each axis at most", "setting", "axes that miss it", "errors, summed", "a run", "usual run"}, 4};
+      {"scene", "each axis at most", "setting", "axes that miss it", "errors, summed", "a run", "usual run"},
+      4};
   for (const Swept& swept : report.swept) {
     for (const Pick& pick : swept.picks) table.rows.push_back(pick_row(swept, pick));
     for (const Measured& point : swept.points)
