@@ -110,9 +110,14 @@ void Simulation::let_pieces_fall() {
   provider_->forget_amounts();
 }
 
+void Simulation::fetch_masks() {
+  if (masks_are_old_ && behind_) device_->download_masks(volume_);
+  masks_are_old_ = false;
+}
+
 // A device has no such rule. It sends its masks, and the rest of its state only if something is loose.
 bool Simulation::let_pieces_fall_for_device() {
-  if (behind_) device_->download_masks(volume_);
+  fetch_masks();
   if (state::loose_solids(volume_).count() == 0) return false;
   fetch();
   if (!scalar::let_pieces_fall(parameters_.pieces, step_number(), volume_)) return false;
@@ -125,7 +130,7 @@ void Simulation::find_irradiance() {
   const Stopwatch watch(seconds_.visibility);
   if (behind_) {
     volume_.changed.begin();
-    device_->download_masks(volume_);
+    fetch_masks();
   } else {
     tell_changes();
   }
@@ -172,6 +177,7 @@ void Simulation::step() {
   if (device_ != nullptr) {
     device_->run_step(step_number(), irradiance());
     behind_ = true;
+    masks_are_old_ = true;
   } else {
     const std::vector<step::Phase> all = phases();
     for (const step::Phase& phase : all) {

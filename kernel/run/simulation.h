@@ -87,6 +87,7 @@ class Simulation {
   void make_stepper();
   void let_pieces_fall();
   bool let_pieces_fall_for_device();
+  void fetch_masks();
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
   step::Cadence count_substeps() const;
@@ -111,6 +112,7 @@ class Simulation {
   std::unique_ptr<visibility::Provider> provider_;
   mutable state::Ledger ledger_;
   mutable bool behind_ = false;  // the device has run on, so volume_ and ledger_ are old
+  bool masks_are_old_ = false;   // so are its masks
   bool uploaded_ = false;        // the device holds our state
   mutable bool untold_ = false;  // steps have ended, and volume_.changed does not know of them yet
   step::Irradiance irradiance_;  // empty without radiation
