@@ -138,6 +138,34 @@ TEST(Exchange, GoesByTheAreaOfADigitalSurface) {
   EXPECT_EQ(exposed_exchange(1001, 3), 1501);
 }
 
+// Planes of all directions are made of cells, height by height. Each of their cells counts by its exposed
+// axes. Over all directions the sum is the area of the plane, as docs/decisions/area-of-air.md says.
+TEST(Exchange, TheAreaIsUnbiasedOverAllDirections) {
+  constexpr int kSide = 60, kTurns = 24;
+  double sum = 0, least = 9, most = 0, weights = 0;
+  for (int i = 0; i < kTurns; ++i)
+    for (int j = 0; j < kTurns; ++j) {
+      // The normal (b, 1, c) has its largest part along the height: a pyramid over a sixth of all directions.
+      const double b = (i + 0.37) / kTurns, c = (j + 0.61) / kTurns, length = std::sqrt(1 + b * b + c * c);
+      const auto height = [&](int x, int z) { return static_cast<int>(std::floor(1000 - b * x - c * z)); };
+      double area = 0;
+      for (int x = 1; x <= kSide; ++x)
+        for (int z = 1; z <= kSide; ++z) {
+          const int top = height(x, z), right = height(x + 1, z), front = height(x, z + 1);
+          for (int y = top; y > std::min({top - 1, right, front}); --y)
+            area += exposed_exchange(4096, (y == top) + (y > right) + (y > front)) / 4096.0;
+        }
+      const double ratio = area / (kSide * kSide * length), weight = 1 / (length * length * length);
+      sum += weight * ratio;
+      weights += weight;
+      least = std::min(least, ratio);
+      most = std::max(most, ratio);
+    }
+  EXPECT_NEAR(sum / weights, 1, 0.01);
+  EXPECT_GT(least, 0.86);
+  EXPECT_LT(most, 1.08);
+}
+
 TEST(Exchange, MovesTowardsTheAirAndNotPastIt) {
   const Material plain{32768, 0};
   EXPECT_LE(exposed_exchange(43690, 3), 65535);
