@@ -128,6 +128,8 @@ bool Simulation::let_pieces_fall_for_device() {
 // Masks that a device has sent without the rest of its state count as changed everywhere.
 void Simulation::find_irradiance() {
   const Stopwatch watch(seconds_.visibility);
+  // Between two of these steps a cell may melt, and another amount may freeze there.
+  if (parameters_.freezes() && parameters_.heat.visibility_every > 1) provider_->forget_amounts();
   if (behind_) {
     volume_.changed.begin();
     fetch_masks();

@@ -18,6 +18,8 @@ constexpr Feature kFeatures[] = {
     {"air", [](P p) { return p.heat.air; }},
     {"convection", [](P p) { return p.heat.convection > 0; }},
     {"latent_heat", [](P p) { return p.material.latent_heat > 0; }},
+    {"freezing", [](P p) { return p.freezes(); }},
+    {"glow", [](P p) { return p.heat.air && p.heat.air_glow > 0; }},
     {"pieces", [](P p) { return p.pieces.fall; }},
     {"vent", [](P p) { return !p.vents.empty(); }},
     {"drain", [](P p) { return !p.drains.empty(); }},

@@ -22,6 +22,7 @@ constexpr double kCalmGamma = 0.3927;
 constexpr double kLargestPower = 4194303;     // x 2^28 fits 50 bits
 constexpr double kLargestExchange = 0.66666;  // 2 / 3: a corner exposed on three axes stays within the air
 constexpr double kSmallestExchange = 1 / 65536.0;  // less is nothing in the rule
+constexpr double kLargestGlow = 0.16666;  // 1 / 6: a corner at the highest temperature does not overshoot
 constexpr double kLargestRadius = 8192;
 constexpr double kLargestDirection = 1e6;
 constexpr std::uint32_t kLastStep = 0xFFFFFFFF;
@@ -56,10 +57,30 @@ double half_cell(const rule::Heat& heat) {
   return 2 * (heat.weight_face + 4 * (heat.weight_edge + heat.weight_corner)) / 65536.0;
 }
 
+void read_air_temperature(Reader& reader, rule::Heat& heat, int ny, std::optional<double> fallback = {}) {
+  const double bottom = reader.number("bottom", fraction(), fallback);
+  const double top = reader.number("top", fraction(), bottom);
+  for (int y = 0; y < ny; ++y)
+    heat.air_temperature.push_back(to_temperature(ny == 1 ? bottom : bottom + (top - bottom) * y / (ny - 1)));
+  reader.finish();
+}
+
+// Glow goes with the fourth power of a temperature that counts from absolute zero.
+void read_glow(Reader& reader, rule::Heat& heat, std::vector<std::string>& warnings) {
+  const double glow = reader.number("glow", at_most(kLargestGlow), 0.0);
+  heat.air_glow = to_factor16(glow);
+  if (glow > 0 && std::abs(heat.air_glow / (65536 * glow) - 1) > 0.02)
+    warnings.push_back(fmt::format("heat.air.glow = {} is taken as {:.3g}, in whole numbers of 1/65536", glow,
+                                   heat.air_glow / 65536.0));
+  heat.air_sky = to_temperature(reader.number("sky", fraction(), 0.0));
+}
+
 // The air meets the surface of a cell, and its heat is that of its centre. So the exchange and half a cell
 // lie one behind the other, unless nothing conducts: then a cell has one temperature.
 void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>& warnings) {
   heat.air = true;
+  read_glow(reader, heat, warnings);
+  if (heat.air_glow > 0 && !reader.has("exchange")) return read_air_temperature(reader, heat, ny, 0.0);
   const double given = reader.number("exchange", at_least(kSmallestExchange).at_most(kLargestExchange));
   const double half = half_cell(heat), exchange = half > 0 ? given / (1 + given / half) : given;
   heat.air_exchange = to_factor16(exchange);
@@ -67,11 +88,7 @@ void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>
   if (std::abs(taken / exchange - 1) > 0.02)
     warnings.push_back(fmt::format("heat.air.exchange = {} is taken as {:.3g}, in whole numbers of 1/65536",
                                    given, half > 0 ? taken / std::max(1e-9, 1 - taken / half) : taken));
-  const double bottom = reader.number("bottom", fraction());
-  const double top = reader.number("top", fraction(), bottom);
-  for (int y = 0; y < ny; ++y)
-    heat.air_temperature.push_back(to_temperature(ny == 1 ? bottom : bottom + (top - bottom) * y / (ny - 1)));
-  reader.finish();
+  read_air_temperature(reader, heat, ny);
 }
 
 int read_rays(Reader& reader) {

@@ -48,6 +48,15 @@ rule::Material read_material(Reader& root) {
   // Both are rounded apart, so that they might be one unit too high together.
   const int most = rule::kTemperatureMax - material.melting_point;
   material.latent_heat = static_cast<rule::Temperature>(std::min<int>(to_temperature(latent_heat), most));
+  if (reader->has("freezing_point")) {
+    const double freezing_point = reader->number("freezing_point", above(0).at_most(1));
+    if (freezing_point > melting_point)
+      reader->fail(
+          "freezing_point",
+          fmt::format(" = {} is above melting_point = {}: what freezes would still give off latent heat",
+                      freezing_point, melting_point));
+    material.freezing_point = to_temperature(freezing_point);
+  }
   reader->finish();
   return material;
 }

@@ -216,6 +216,8 @@ const std::vector<Other> kPaper = {{"heat.gamma", 0.1},
                                    {"flow.thermal.reference", 0.3},
                                    {"flow.thermal.doubling", 0.3}};
 const std::vector<Other> kOnSolid = {{"flow.paper.alpha_solid", 0.2}};
+const std::vector<Other> kCooling = {
+    {"heat.air.glow", 0.05}, {"heat.air.sky", 0.4}, {"material.freezing_point", 0.44}};
 const std::vector<Other> kTubes = {{"flow.viscous.stiffness", 1}};
 const std::vector<Other> kViscous = {
     {"heat.neighbours", 6},          {"flow.fall.factor", 0.5},        {"flow.viscous.kappa", 0.5},
@@ -263,6 +265,24 @@ size = [5, 6, 5]
 at = [10, 6, 10]
 )");
   expect_a_set_value_acts_as_said(on_solid, kOnSolid, folder);
+  const auto cooling = write("cooling.toml", R"(
+[grid]
+size = [12, 8, 12]
+[material]
+freezing_point = 0.2
+[[liquid]]
+shape = "box"
+size = [8, 3, 8]
+at = [6, 1.5, 6]
+temperature = 0.45
+[heat]
+[heat.air]
+exchange = 0.01
+bottom = 0.1
+glow = 0.01
+sky = 0.1
+)");
+  expect_a_set_value_acts_as_said(cooling, kCooling, folder);
 }
 TEST_F(Running, ASetValueGivesTheBitsOfASceneThatBeginsWithItViscous) {
   expect_a_set_value_acts_as_said(scene("proving_ground_viscous"), kViscous, folder);
@@ -291,7 +311,7 @@ TEST_F(Running, ASetValueInTheMiddleOfARun) {
 
 TEST_F(Running, EveryChangeableKeyIsTestedAndInTheDocs) {
   std::map<std::string, int> tested;
-  for (const auto* others : {&kPaper, &kOnSolid, &kViscous, &kTubes})
+  for (const auto* others : {&kPaper, &kOnSolid, &kCooling, &kViscous, &kTubes})
     for (const Other& other : *others) ++tested[other.key];
   std::ifstream page(std::filesystem::path(VOXMELT_SCENES_FOLDER).parent_path() / "docs/library.md");
   std::stringstream text;

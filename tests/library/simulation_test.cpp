@@ -129,7 +129,7 @@ TEST_F(Library, LedgersAddUpToWhatIsThere) {
   };
   check(books.mass, mass, {"added", "removed"});
   check(books.energy, energy,
-        {"melted", "added", "removed", "reheated", "accelerated", "dissipated", "capped"});
+        {"melted", "frozen", "added", "removed", "reheated", "accelerated", "dissipated", "capped"});
   check(books.heat, heat,
         {"conducted", "walls", "convected", "radiated", "warmed", "cooled", "added", "removed", "rounded"});
 
@@ -147,6 +147,7 @@ TEST_F(Library, TermsHaveTheirSigns) {
   ledger.mass.removed = 3;
   state::EnergyLedger& e = ledger.energy;
   e.melted = 2;
+  e.frozen = 9;
   e.added = 3;
   e.removed = 4;
   e.reheated = 5;
@@ -171,7 +172,7 @@ TEST_F(Library, TermsHaveTheirSigns) {
   };
   EXPECT_EQ(text(books.mass), "1 added 2 removed -3 30");
   EXPECT_EQ(text(books.energy),
-            "1 melted 2 added 3 removed -4 reheated 5 accelerated 6 dissipated -7 capped -8 30");
+            "1 melted 2 frozen -9 added 3 removed -4 reheated 5 accelerated 6 dissipated -7 capped -8 30");
   EXPECT_EQ(
       text(books.heat),
       "1 conducted 2 walls 10 convected 3 radiated 4 warmed 5 cooled -6 added 7 removed -8 rounded 9 40");

@@ -17,12 +17,13 @@ VOXMELT_RULE std::int32_t released(std::int32_t a, std::uint32_t factor, std::in
 }
 
 struct FallSurroundings {
-  bool beside_wall;  // one of the four sides is solid, inert or the border; paper's law: before melt
-  bool overhangs;    // nothing is below now, and solid, inert or the border is above or at a side
+  bool beside_wall;     // one of the four sides is solid, inert or the border; paper's law: before melt
+  bool overhangs;       // nothing is below now, and solid, inert or the border is above or at a side
+  bool clings = false;  // the cell is set, and solid, inert or the border is above or at a side
 };
 
 VOXMELT_RULE std::int32_t released(std::int32_t a, const Fall& fall, FallSurroundings at) {
-  if (at.overhangs && a < fall.hang) return 0;
+  if (at.clings || (at.overhangs && a < fall.hang)) return 0;
   return released(a, at.beside_wall ? fall.wall_factor : fall.factor, fall.minimum);
 }
 

@@ -52,6 +52,19 @@ VOXMELT_RULE std::int32_t exchanged(std::int32_t h, std::int32_t air, std::int32
   return std::min(scaled(air - temperature_of(h, material), rate, dither), kTemperatureMax - h);
 }
 
+// Returns the fourth power of a temperature that counts from absolute zero, in units of temperature.
+VOXMELT_RULE std::int32_t fourth_power(std::int32_t temperature) {
+  const auto square = static_cast<std::int32_t>((std::int64_t{temperature} * temperature) >> 16);
+  return static_cast<std::int32_t>((std::int64_t{square} * square) >> 16);
+}
+
+// Returns the heat that a cell gains from what it glows at, mostly below 0.
+VOXMELT_RULE std::int32_t glowed(std::int32_t h, std::int32_t sky, std::int32_t glow, int exposed_axes,
+                                 std::int32_t dither, const Material& material) {
+  const std::int32_t difference = fourth_power(sky) - fourth_power(temperature_of(h, material));
+  return std::min(scaled(difference, exposed_exchange(glow, exposed_axes), dither), kTemperatureMax - h);
+}
+
 // Returns the heat of a cell after its contents were mixed, since heat travels with liquid. `content` is the
 // sum of amount x h over the new contents of the cell. `amount` is its new amount (> 0).
 VOXMELT_RULE std::int32_t mixed(std::uint64_t content, std::uint64_t amount, std::int32_t dither) {
@@ -63,5 +76,10 @@ VOXMELT_RULE std::int32_t mixed(std::uint64_t content, std::uint64_t amount, std
 VOXMELT_RULE bool melts(std::int32_t h, const Material& material) {
   return h >= std::int32_t{material.melting_point} + material.latent_heat;
 }
+
+// Tells if liquid is so cold that it freezes, or sets: it has given off all its latent heat.
+VOXMELT_RULE bool is_cold(std::int32_t h, const Material& material) { return h < material.freezing_point; }
+// Tells if a cold cell holds enough to become solid.
+VOXMELT_RULE bool is_full(std::int32_t amount) { return amount >= kOne - kOne / 64; }
 
 }  // namespace voxmelt::rule

@@ -79,6 +79,9 @@ struct Heat {
   bool air = false;                          // exchange with moving air at exposed cells (oven, or cooling)
   std::uint16_t air_exchange = 0;            // 1/65536 per step and unit area, at most 43690
   std::vector<Temperature> air_temperature;  // one per y
+  // Exposed cells glow, too: 1/65536 of the range of heat per step and unit area at the highest temperature.
+  std::uint16_t air_glow = 0;  // at most 10922
+  Temperature air_sky = 0;     // temperature of what they glow at
 
   VOXMELT_RULE bool radiates() const { return enabled && radiation; }
   // Returns how many steps ago the irradiance of this step was computed. It is 0 if nothing radiates.
@@ -93,7 +96,8 @@ struct Heat {
 
 struct Material {
   Temperature melting_point = 32768;
-  Temperature latent_heat = 0;  // extra `latent_heat`: temperature units absorbed at the melting point
+  Temperature latent_heat = 0;     // extra `latent_heat`: temperature units absorbed at the melting point
+  Temperature freezing_point = 0;  // extra `freezing`: colder liquid freezes or sets; 0 is off
 };
 
 struct Region {  // all cells whose centre is within radius
@@ -196,6 +200,10 @@ struct Parameters {
   bool open_border = false;  // all liquid of the outermost cells along x and z leaves, after the drains
   Flow flow;
 
+  // Tells if cold liquid freezes, or sets and clings.
+  bool freezes() const { return heat.enabled && material.freezing_point > 0; }
+  // Tells if the outflow of a falling cell depends on what stands beside it.
+  bool falls_by_sides() const { return flow.fall.sees_sides() || freezes(); }
   // Tells if phase `source` may do anything.
   bool has_openings() const { return !vents.empty() || !drains.empty() || open_border; }
 };

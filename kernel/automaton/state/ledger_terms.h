@@ -30,6 +30,7 @@ struct MassTerms {
 template <class Number>
 struct EnergyTerms {
   Number melted = 0;       // energy of freshly melted cells
+  Number frozen = 0;       // energy that freezing cells lose
   Number added = 0;        // brought by vents
   Number removed = 0;      // left through drains
   Number reheated = 0;     // extra `reheat`
@@ -39,13 +40,11 @@ struct EnergyTerms {
 
   static constexpr auto table() {
     using Row = Term<EnergyTerms, Number>;
-    return std::array{Row{"melted", +1, &EnergyTerms::melted},
-                      Row{"added", +1, &EnergyTerms::added},
-                      Row{"removed", -1, &EnergyTerms::removed},
-                      Row{"reheated", +1, &EnergyTerms::reheated},
-                      Row{"accelerated", +1, &EnergyTerms::accelerated},
-                      Row{"dissipated", -1, &EnergyTerms::dissipated},
-                      Row{"capped", -1, &EnergyTerms::capped}};
+    return std::array{
+        Row{"melted", +1, &EnergyTerms::melted},         Row{"frozen", -1, &EnergyTerms::frozen},
+        Row{"added", +1, &EnergyTerms::added},           Row{"removed", -1, &EnergyTerms::removed},
+        Row{"reheated", +1, &EnergyTerms::reheated},     Row{"accelerated", +1, &EnergyTerms::accelerated},
+        Row{"dissipated", -1, &EnergyTerms::dissipated}, Row{"capped", -1, &EnergyTerms::capped}};
   }
   friend bool operator==(const EnergyTerms&, const EnergyTerms&) = default;
 };

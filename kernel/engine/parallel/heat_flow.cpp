@@ -20,6 +20,7 @@ HeatFlow::HeatFlow(state::Grid grid, const simd::View& view, int chunks)
       restless_(stale_),
       moved_(stale_),
       for_melt_(stale_),
+      changed_before_melt_(stale_),
       light_(stale_),
       tile_shift_(view.tile_shift),
       all_(all_words(view)),
@@ -51,6 +52,7 @@ void HeatFlow::note_light(const state::ChangedRows& changed) {
 void HeatFlow::note_light() { light_.fill(all_); }
 
 void HeatFlow::heat(const Job& job, Tiles& changed, simd::Books& books) {
+  freezes_ = job.kernels.freezes;
   wake(job);
   const bool later = job.kernels.conduct_edges || job.kernels.conduct_corners || job.kernels.convect;
   if (job.kernels.conduct_faces) {
@@ -162,7 +164,7 @@ void HeatFlow::call(int z, Worker& worker, const Call& kernel) {
   kernel(simd::HeatTiles{worker.moved.data(), restless_.edit(z), worker.hot.data()});
   restless_.tidy(z);
   moved_.add(z, worker.moved.data());
-  for_melt_.add(z, worker.hot.data());
+  for_melt_.add(z, freezes_ ? worker.moved.data() : worker.hot.data());
 }
 
 // Finds the gains from walls first, because they depend on the heats before the pass.
@@ -229,7 +231,20 @@ void HeatFlow::exchange(const Job& job, int z, Worker& worker) {
   });
 }
 
+// A cell freezes beside walls, which may have come in a tile beside its own.
+void HeatFlow::wake_for_melt(const Job& job) {
+  std::swap(for_melt_, changed_before_melt_);
+  for_melt_.clear();
+  for (int z = 0; z < job.view.nz; ++z) {
+    if (!changed_before_melt_.any_near(z)) continue;
+    for (int r = 0; r < job.view.tile_rows(); ++r)
+      for_melt_.edit(z)[r] = changed_before_melt_.near(z, r, all_);
+    for_melt_.tidy(z);
+  }
+}
+
 void HeatFlow::melt(const Job& job, Tiles& changed, simd::Books& books) {
+  if (freezes_ && job.sleep) wake_for_melt(job);
   job.workers.run(chunks_.count(), melt_turns_, [&](int chunk) {
     Worker& worker = chunk_[chunk];
     for (int z = chunks_.begin(chunk); z < chunks_.end(chunk); ++z) {

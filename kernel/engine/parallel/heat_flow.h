@@ -3,7 +3,8 @@
 // A tile is awake for heat if it, or a tile beside it, has changed since its last heat (its heat, its
 // amounts, its masks). It is also awake if another dither might move heat. Each pass wakes the neighbours of
 // what it changes. New irradiance wakes a tile for radiation alone, in which each cell acts alone. A tile is
-// awake for melt if it has changed since its last melt. Bodies of one temperature sleep.
+// awake for melt if it has changed since its last melt, and in scenes that freeze, also beside such a tile.
+// Bodies of one temperature sleep.
 #pragma once
 
 #include <cstdint>
@@ -57,10 +58,13 @@ class HeatFlow {
   void conduct_distant(const Job& job, bool corners);
   void convect(const Job& job);
   void exchange(const Job& job, int z, Worker& worker);
+  void wake_for_melt(const Job& job);
 
   Chunks chunks_;
   cpu::Turns sweep_turns_, melt_turns_;
   Tiles stale_, taken_, awake_, restless_, moved_, for_melt_;
+  Tiles changed_before_melt_;  // in scenes that freeze
+  bool freezes_ = false;
   Tiles light_;  // with new irradiance
   int tile_shift_;
   TileRow all_;  // all tiles of a row

@@ -27,7 +27,7 @@ simd::View shape_of(state::Grid grid, int tile_shift) {
 
 // Tells if falling in this scene sees its sides in an earlier state than all else.
 bool keeps_sides(const rule::Parameters& p) {
-  return p.flow.law == rule::Law::paper && p.heat.enabled && p.flow.fall.sees_sides();
+  return p.flow.law == rule::Law::paper && p.heat.enabled && p.falls_by_sides();
 }
 
 void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
@@ -75,6 +75,10 @@ simd::View Stepper::view_of(state::Volume& volume) {
   view.inert = volume.inert.data();
   if (!walls_) walls_.emplace(view);
   if (!sides_ && keeps_sides(parameters_)) sides_ = walls_;
+  if (kernels_.freezes) {
+    if (set_cells_.empty()) set_cells_ = state::BitPlane(volume.grid);
+    view.set = set_cells_.data();
+  }
   view.walls = walls_->origin(view);
   view.sides = sides_ ? sides_->origin(view) : view.walls;
   return view;

@@ -49,6 +49,7 @@ class Stepper final : public step::HostStepper {
   cpu::Workers workers_;
   int rows_;                            // rows of the grid
   std::optional<Walls> walls_, sides_;  // sides_: before this step's melt, if gravity asks for them
+  state::BitPlane set_cells_;           // by the last melt; empty if nothing freezes
   LoosePieces pieces_;
   std::optional<HeatFlow> heat_;
   bool knows_light_ = false;  // the new irradiance of this step has been told

@@ -14,9 +14,10 @@ namespace {
 // Describes the surroundings of a cell. side(x, y, z) tells if that cell counts as a blocked side.
 template <class Side>
 rule::FallSurroundings surroundings(const Cells& cells, const Side& side, int x, int y, int z,
-                                    bool empty_below) {
+                                    bool empty_below, bool set) {
   const bool wall = side(x - 1, y, z) || side(x + 1, y, z) || side(x, y, z - 1) || side(x, y, z + 1);
-  return {wall, empty_below && (wall || cells.blocked(x, y + 1, z))};
+  const bool touches = wall || cells.blocked(x, y + 1, z);
+  return {wall, empty_below && touches, set && touches};
 }
 
 // Moves liquid between a cell and the one above it, with its energy and heat.
@@ -87,7 +88,9 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
   const Cells cells(volume);  // masks stay those of the phase's begin until settle_masks
   // Under the paper's law the sides are those before this step's melt.
   const auto side = [&](int x, int y, int z) {
-    return cells.blocked(x, y, z) || (paper && melted_.test(x, y, z));
+    if (!paper || cells.outside(x, y, z)) return cells.blocked(x, y, z);
+    const bool frozen = parameters_.freezes() && frozen_.test(x, y, z);
+    return (cells.blocked(x, y, z) && !frozen) || melted_.test(x, y, z);
   };
 
   PairMoves moves(parameters_, rule::dither(step), volume, ledger);
@@ -100,7 +103,7 @@ void Reference::gravity(std::uint32_t step, Volume& volume, Ledger& ledger) {
         if (lower + upper == 0 || cells.blocked(x, y, z) || cells.blocked(x, y + 1, z)) continue;
 
         if (upper > 0 && lower < rule::kOne && (paper || !in_run_[high]))
-          moves.fall(high, low, surroundings(cells, side, x, y + 1, z, lower == 0));
+          moves.fall(high, low, surroundings(cells, side, x, y + 1, z, lower == 0, is_set(x, y + 1, z)));
         else if (paper && lower > rule::kOne)
           moves.push_up(low, high);
       }

@@ -1,5 +1,5 @@
 // Phase `heat` conducts (Eq. 1) among matter and from isothermal walls in one pass per neighbour distance. It
-// then convects in liquid. Last come radiation received and exchange with air, cell by cell.
+// then convects in liquid. Last come radiation received, exchange with air and glow, cell by cell.
 #include "kernel/automaton/rule/heat.h"
 
 #include <cstdint>
@@ -76,6 +76,10 @@ int exposed_axes(const Cells& cells, int x, int y, int z) {
   return axes;
 }
 
+void book_exchange(std::int64_t gain, state::HeatLedger& ledger) {
+  (gain > 0 ? ledger.warmed : ledger.cooled) += gain > 0 ? gain : -gain;
+}
+
 }  // namespace
 
 void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger) {
@@ -115,7 +119,12 @@ void Reference::heat(std::uint32_t step, const step::Irradiance* irradiance, Vol
       const std::int32_t gain =
           rule::exchanged(h, heat.air_temperature[y], heat.air_exchange, axes, offset, material);
       h += gain;
-      (gain > 0 ? ledger.heat.warmed : ledger.heat.cooled) += (gain > 0 ? gain : -gain) * amount;
+      book_exchange(gain * amount, ledger.heat);
+      if (heat.air_glow > 0) {
+        const std::int32_t glow = rule::glowed(h, heat.air_sky, heat.air_glow, axes, offset, material);
+        h += glow;
+        book_exchange(glow * amount, ledger.heat);
+      }
     }
     volume.heat[i] = static_cast<std::uint16_t>(h);
   });

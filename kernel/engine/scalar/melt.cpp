@@ -1,13 +1,26 @@
-// Phase `melt` turns hot solids into liquid. The extra `reheat` gives hot liquid its energy back.
+// Phase `melt` turns hot solids into liquid. The extra `reheat` gives hot liquid its energy back. Cold liquid
+// freezes where it is full and touches something, and is set elsewhere.
+#include <algorithm>
 #include <cstdint>
 
 #include "kernel/automaton/rule/heat.h"
+#include "kernel/automaton/rule/neighbourhood.h"
 #include "kernel/engine/scalar/reference.h"
 
 namespace voxmelt::scalar {
+namespace {
+
+bool touches_blocked(const Cells& cells, int x, int y, int z) {
+  return std::any_of(rule::kFaceAxes.begin(), rule::kFaceAxes.end(), [&](const rule::Offset& d) {
+    return cells.blocked(x + d.dx, y + d.dy, z + d.dz) || cells.blocked(x - d.dx, y - d.dy, z - d.dz);
+  });
+}
+
+}  // namespace
 
 void Reference::melt(Volume& volume, Ledger& ledger) {
   if (!parameters_.heat.enabled) return;
+  if (parameters_.freezes()) find_frozen(volume);
   const bool paper = parameters_.flow.law == rule::Law::paper;
   const std::int32_t reheat = parameters_.flow.paper.reheat;
   melted_.clear();
@@ -27,6 +40,30 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
       add(volume.energy[i], gained);
       ledger.energy.reheated += gained;
     }
+  });
+  if (parameters_.freezes()) freeze(volume, ledger);
+}
+
+// Finds the cells that freeze, and those that are set, before any mask changes.
+void Reference::find_frozen(const Volume& volume) {
+  const Cells cells(volume);
+  frozen_.clear();
+  set_.clear();
+  ActiveRows(volume).for_each([&](int x, int y, int z) {
+    if (!cells.liquid(x, y, z) || !rule::is_cold(cells.heat(x, y, z), parameters_.material)) return;
+    const bool freezes = rule::is_full(cells.amount(x, y, z)) && touches_blocked(cells, x, y, z);
+    (freezes ? frozen_ : set_).set(x, y, z, true);
+  });
+}
+
+void Reference::freeze(Volume& volume, Ledger& ledger) {
+  ActiveRows(volume).for_each([&](int x, int y, int z) {
+    if (!frozen_.test(x, y, z)) return;
+    const state::Slot i = volume.at(x, y, z);
+    volume.solid.set(x, y, z, true);
+    volume.liquid.set(x, y, z, false);
+    ledger.energy.frozen += volume.energy[i];
+    volume.energy[i] = 0;
   });
 }
 

@@ -8,6 +8,7 @@ namespace voxmelt::scalar {
 
 Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
     : parameters_(parameters), solid_bed_(parameters), keys_(rule::round_keys(parameters.seed)) {
+  if (parameters.freezes()) set_ = frozen_ = decltype(set_)(grid);
   if (parameters.flow.law == rule::Law::paper) {
     pattern_ = decltype(pattern_)(grid);
     melted_ = decltype(melted_)(grid);

@@ -30,6 +30,8 @@ class Reference final : public step::HostStepper {
     return column_of(i);
   }
   bool in_shut_run(state::Slot i) const { return shut_[i] != 0; }
+  // Returns the cells that the last `melt` found set. It is empty if nothing freezes.
+  const state::BitPlane& set_cells() const { return set_; }
 
  private:
   using Volume = state::Volume;
@@ -38,11 +40,15 @@ class Reference final : public step::HostStepper {
   void source(std::uint32_t step, Volume& volume, Ledger& ledger);
   void heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger);
   void melt(Volume& volume, Ledger& ledger);
+  void find_frozen(const Volume& volume);
+  void freeze(Volume& volume, Ledger& ledger);
+  bool is_set(int x, int y, int z) const { return parameters_.freezes() && set_.test(x, y, z); }
   void gravity(std::uint32_t step, Volume& volume, Ledger& ledger);
   void spread(std::uint32_t step, Volume& volume, Ledger& ledger);
   void settle(step::Moment moment, Volume& volume, Ledger& ledger);
   void relax(rule::Relaxation relaxation, const Volume& volume);
   void viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger);
+  rule::Column shown(const Cells& cells, int x, int y, int z) const;
   rule::Column column_of(state::Slot i) const {  // of a cell in a run
     return {head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
   }
@@ -54,6 +60,7 @@ class Reference final : public step::HostStepper {
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run
+  state::BitPlane set_, frozen_;        // by the last `melt`, if anything freezes
   // viscous law: the cell belongs to a run; and to one that is shut
   state::Field<std::uint8_t> in_run_, shut_;
   state::Field<std::int32_t> head_, mobility_, exposed_, dead_, bed_,

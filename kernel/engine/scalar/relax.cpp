@@ -34,8 +34,9 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
   for_each_pair([&](int x, int y, int z, state::Slot i, state::Slot j, std::size_t d) {
     const rule::Direction to = rule::kDirections[d];
     const bool diagonal = rule::is_diagonal(static_cast<int>(d));
-    const auto levels = [&](state::Slot giver, state::Slot taker) {
+    const auto levels = [&](state::Slot giver, state::Slot taker, bool set) {
       const rule::Column from = column_of(giver), there = column_of(taker);
+      if (set) return 0;
       if (!rule::gives(from, there, diagonal)) return 0;
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
       return rule::leveling(
@@ -43,7 +44,8 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
           rule::slope_factor(from.bed, there.bed, diagonal, walls), std::min(filled_[giver], filled_[taker]),
           diagonal, relaxation);
     };
-    leveling[d][i] = levels(i, j) + levels(j, i);  // at most one of them gives
+    // At most one of them gives.
+    leveling[d][i] = levels(i, j, is_set(x, y, z)) + levels(j, i, is_set(x + to.dx, y, z + to.dz));
   });
   for (int stage = 1;; ++stage) {
     rows.for_each([&](int x, int y, int z) {

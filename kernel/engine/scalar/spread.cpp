@@ -84,7 +84,7 @@ void Reference::find_patterns(std::uint32_t step, const Volume& volume, const Ac
   rows.for_each([&](int x, int y, int z) {
     std::uint8_t& pattern = pattern_[cells.at(x, y, z)];
     pattern = 0;
-    if (!cells.liquid(x, y, z)) return;
+    if (!cells.liquid(x, y, z) || is_set(x, y, z)) return;
     if (law.support && cells.air(x, y - 1, z)) return;
 
     const std::int32_t margin = rule::spread_margin(cells.energy(x, y, z), law);

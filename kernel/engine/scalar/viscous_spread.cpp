@@ -15,7 +15,23 @@ namespace {
 // Each axis has its own part of the dither: x, z, and the two diagonals.
 constexpr std::array<int, 8> kDitherAxis{0, 0, 1, 1, 2, 3, 3, 2};
 
+// A set cell gives nothing, be it the higher one or the one from which liquid flows back.
+bool may_flow(std::int32_t wanted, bool own_is_higher, bool own_set, bool other_set) {
+  return !(own_is_higher ? own_set : other_set) && !(wanted > 0 ? own_set : other_set);
+}
+
 }  // namespace
+
+// Returns what a cell shows to its neighbours.
+rule::Column Reference::shown(const Cells& cells, int x, int y, int z) const {
+  const state::Slot i = cells.at(x, y, z);
+  if (in_run_[i]) return column_of(i);
+  if (cells.blocked(x, y - 1, z))
+    return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_bed_)));
+  const state::Slot below = cells.at(x, y - 1, z);
+  if (in_run_[below]) return rule::top_column(column_of(below));
+  return rule::air_column(y);
+}
 
 void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
   const ActiveRows rows(volume);
@@ -26,39 +42,30 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
   const rule::Relaxation relaxation{moment.stages};
   if (relaxation.relaxes()) relax(relaxation, volume);
 
-  // Returns what a cell shows to its neighbours.
-  const auto column = [&](int x, int y, int z) {
-    const state::Slot i = cells.at(x, y, z);
-    if (in_run_[i]) return column_of(i);
-    if (cells.blocked(x, y - 1, z))
-      return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_bed_)));
-    const state::Slot below = cells.at(x, y - 1, z);
-    if (in_run_[below]) return rule::top_column(column_of(below));
-    return rule::air_column(y);
-  };
-
   next_.amount = volume.amount;
   next_.heat = volume.heat;
   rows.for_each([&](int x, int y, int z) {
     if (cells.blocked(x, y, z)) return;
     const state::Slot i = cells.at(x, y, z);
-    const rule::Column own = column(x, y, z);
+    const rule::Column own = shown(cells, x, y, z);
     std::int32_t out = 0, in = 0;
     std::uint64_t content = 0;
     for (int d = 0; d < 8; ++d) {
       const rule::Direction to = rule::kDirections[d];
       const int nx = x + to.dx, nz = z + to.dz;
-      const bool diagonal = rule::is_diagonal(d);
       if (!is_open(cells, x, y, z, to)) continue;
       const state::Slot j = cells.at(nx, y, nz);
       if (!in_run_[i] && !in_run_[j]) continue;
       if (shut_[i] && shut_[j]) continue;
-      const rule::Column there = column(nx, y, nz);
+      const rule::Column there = shown(cells, nx, y, nz);
       const std::int32_t offset =
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
+      const bool diagonal = rule::is_diagonal(d);
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
-      const std::int32_t given = rule::flow_between(own, volume.amount[i], there, volume.amount[j], diagonal,
-                                                    offset, walls, relaxed_[i] - relaxed_[j], relaxation);
+      const std::int32_t wanted = rule::flow_between(own, volume.amount[i], there, volume.amount[j], diagonal,
+                                                     offset, walls, relaxed_[i] - relaxed_[j], relaxation);
+      const bool may = may_flow(wanted, own.head > there.head, is_set(x, y, z), is_set(nx, y, nz));
+      const std::int32_t given = may ? wanted : 0;
       const std::int32_t taken = std::max(0, -given);
       out += std::max(0, given);
       in += taken;

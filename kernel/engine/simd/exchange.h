@@ -1,5 +1,5 @@
-// Phase `heat` lets solids receive radiation and exposed cells exchange heat with air here. Each cell acts
-// alone.
+// Phase `heat` lets solids receive radiation and exposed cells exchange heat with air, and glow, here. Each
+// cell acts alone.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +26,14 @@ class Exchange {
         melting_(step.parameters->material),
         dither_(L::set(static_cast<int>(step.dither))),
         rest_(L::set(static_cast<int>(0xFFFF - step.dither))) {
-    const int exchange = step.parameters->heat.air_exchange;
-    for (int n = 0; n < 3; ++n) rate_[n] = L::set((exchange * (4 + n)) >> 2);  // of n + 1 exposed axes
-    blows_ = kFeatures.air && exchange > 0;
+    const rule::Heat& heat = step.parameters->heat;
+    for (int n = 0; n < 3; ++n) {  // of n + 1 exposed axes
+      rate_[n] = L::set((heat.air_exchange * (4 + n)) >> 2);
+      glow_rate_[n] = L::set((heat.air_glow * (4 + n)) >> 2);
+    }
+    sky_ = fourth_power(L::set(heat.air_sky));
+    glows_ = kFeatures.air && heat.air_glow > 0;
+    blows_ = kFeatures.air && (heat.air_exchange > 0 || glows_);
   }
 
   [[gnu::always_inline]] void run(const TileRow* tiles, const HeatTiles& tell, Books& books) {
@@ -119,7 +124,14 @@ class Exchange {
         if (lit)
           heat = radiate(heat, amount, L::keep(L::from_bits(solid, part), L::load(irradiance_ + at)), left);
       if constexpr (kFeatures.air)
-        if (bare.one != 0) heat = blow(heat, amount, bare, L::set(air_temperature_[row.y]), part, left);
+        if (bare.one != 0) {
+          heat = exchange(heat, amount, bare, plateau_(heat), L::set(air_temperature_[row.y]), rate_, part,
+                          left);
+          if (glows_) {
+            const V own = fourth_power(plateau_(heat));
+            heat = exchange(heat, amount, bare, own, sky_, glow_rate_, part, left);
+          }
+        }
       L::store(v_.heat + at, heat);
       any = any | (heat ^ old);
       hottest = L::max(hottest, heat);
@@ -137,12 +149,18 @@ class Exchange {
     return heat + gain;
   }
 
-  // Returns floor(((air - T) rate + D) / 65536). For air < T the rounding is reversed: |difference| rate is
-  // rounded with 65535 - D.
-  [[gnu::always_inline]] V blow(V heat, V amount, const Exposed& bare, V air, int part, V& left) {
-    const V own = plateau_(heat), warmer = L::sub_saturated(air, own), colder = L::sub_saturated(own, air);
-    const V rate = L::select(L::from_bits(bare.three, part), rate_[2],
-                             L::select(L::from_bits(bare.two, part), rate_[1], rate_[0]));
+  [[gnu::always_inline]] static V fourth_power(V temperature) {
+    const V square = L::high(temperature, temperature);
+    return L::high(square, square);
+  }
+
+  // Adds floor(((other - own) rate + D) / 65536). For other < own the rounding is reversed: |difference| rate
+  // is rounded with 65535 - D.
+  [[gnu::always_inline]] V exchange(V heat, V amount, const Exposed& bare, V own, V other,
+                                    const V (&rates)[3], int part, V& left) {
+    const V warmer = L::sub_saturated(other, own), colder = L::sub_saturated(own, other);
+    const V rate = L::select(L::from_bits(bare.three, part), rates[2],
+                             L::select(L::from_bits(bare.two, part), rates[1], rates[0]));
     const V difference = L::keep(L::from_bits(bare.one, part), warmer + colder);
     const M cools = L::less(L::zero(), colder);
     const V moved =
@@ -161,8 +179,8 @@ class Exchange {
   const Plateau<Arch, kFeatures.latent> plateau_;
   const MeltingHeat<Arch> melting_;
   const V dither_, rest_;
-  V rate_[3];
-  bool blows_ = false;
+  V rate_[3], glow_rate_[3], sky_;
+  bool blows_ = false, glows_ = false;
   GainBooks<Arch> radiated_, warmed_, cooled_;
 };
 

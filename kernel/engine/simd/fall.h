@@ -40,7 +40,9 @@ class FallOutside {
         const std::size_t high = v_.word(w, y + 1, z_);
         const std::uint64_t loose = v_.liquid[high] & ~in_run_[high];
         if (loose == 0) continue;
-        const std::uint64_t open = loose & ~v_.blocked(w, y, z_);
+        std::uint64_t open = loose & ~v_.blocked(w, y, z_);
+        if (const std::uint64_t set = open & v_.set_cells(w, y + 1, z_); set != 0)
+          open &= ~(set & surroundings(w, y + 1).overhang);
         if (open != 0 && pair(w, y, open)) moved |= work & -work;
       }
       if (moved == 0) continue;

@@ -35,8 +35,8 @@ struct ViscousFeatures {
 #define VOXMELT_WITHOUT
 #endif
 struct Built {
-  bool heat = true, latent = true, walls = true, radiation = true, air = true, convection = true,
-       edges = true, corners = true;
+  bool heat = true, latent = true, freezing = true, walls = true, radiation = true, air = true,
+       convection = true, edges = true, corners = true;
   bool viscous = true, guided = true, thermal = true;                              // for both laws
   bool eight = true, general = true, support = true, slump = true, reheat = true;  // for the paper's law
 };

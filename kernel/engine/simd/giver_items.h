@@ -71,6 +71,7 @@ class GiverItems {
   [[gnu::always_inline]] int collect(const View& view, const Openness<Arch, kDirections>& openness, int w,
                                      int count) {
     std::uint64_t givers = liquid_[w];
+    if (view.set != nullptr) givers &= ~view.set[&liquid_[w] - view.liquid];
     if (givers == 0) return count;
     // With `support`, only cells that stand on something give. Below the grid all is wall.
     if (kSupport) givers &= walls_[w - (view.words + 2)] | below_[w];

@@ -112,7 +112,7 @@ class Gravity {
     std::uint64_t low, high;
   };
   struct Around {
-    std::uint64_t wall, overhang;
+    std::uint64_t wall, overhang, clings;  // clings: cells that are set, and touch something
   };
   // Tells for the cells of word w in row y if a side was blocked before melt, and if there is something to
   // hang from.
@@ -120,7 +120,8 @@ class Gravity {
     const std::uint64_t* row = v_.sides_at(y, z_);
     const std::uint64_t wall = cpu::from_right(row[w], row[w + 1]) | cpu::from_left(row[w], row[w - 1]) |
                                v_.sides_at(y, z_ - 1)[w] | v_.sides_at(y, z_ + 1)[w];
-    return {wall, wall | v_.blocked(w, y + 1, z_)};
+    const std::uint64_t touches = wall | v_.blocked(w, y + 1, z_);
+    return {wall, touches, touches & v_.set_cells(w, y, z_)};
   }
 
   [[gnu::always_inline]] V ready(V upper, V lower, Around around, int part) const {
@@ -129,7 +130,8 @@ class Gravity {
     } else {
       const V part_free = part_of(upper, fall_.factor), part_wall = part_of(upper, fall_.wall_factor);
       const V part_given = L::select(L::from_bits(around.wall, part), part_wall, part_free);
-      const V given = L::min(upper, L::add_saturated(part_given, L::set(fall_.minimum)));
+      V given = L::min(upper, L::add_saturated(part_given, L::set(fall_.minimum)));
+      if (around.clings != 0) given = L::keep(L::from_bits(~around.clings, part), given);
       if (fall_.hang == 0) return given;
       const V hangs = L::keep(L::from_bits(around.overhang, part), L::set(0xFFFF));
       const V none_below = L::keep(L::equal(lower, L::zero()), hangs);

@@ -54,10 +54,10 @@ void exchange_slice(const View& view, const Step& step, int z, const TileRow* ti
   Exchange<Arch, kFeatures>(view, step, z).run(tiles, found, books);
 }
 
-template <class Arch, bool kPaper>
+template <class Arch, bool kPaper, bool kFreezes>
 void melt_slice(const View& view, const Step& step, int z, const TileRow* tiles, TileRow* changed,
                 Books& books) {
-  Melt<Arch, kPaper>(view, step, z, books).run(tiles, changed);
+  Melt<Arch, kPaper, kFreezes>(view, step, z, books).run(tiles, changed);
 }
 
 template <class Arch, bool kLatent>
@@ -73,7 +73,7 @@ void choose_latent_kernels(const rule::Heat& heat, Kernels& kernels) {
     kernels.corner_walls = kWallKernels<Arch, kLatent, CornerAxes<Arch>>;
   }
   if (kBuilt.convection && heat.convection > 0) kernels.convect = convect_slice<Arch, kLatent>;
-  const bool air = kBuilt.air && heat.air && heat.air_exchange > 0;
+  const bool air = kBuilt.air && heat.air && (heat.air_exchange > 0 || heat.air_glow > 0);
   const bool radiation = kBuilt.radiation && heat.radiation;
   if (radiation && air)
     kernels.exchange = exchange_slice<Arch, HeatFeatures{kLatent, true, true}>;
@@ -91,7 +91,12 @@ void choose_heat_kernels(const rule::Parameters& parameters, Kernels& kernels) {
     choose_latent_kernels<Arch, true>(parameters.heat, kernels);
   else
     choose_latent_kernels<Arch, false>(parameters.heat, kernels);
-  kernels.melt = parameters.flow.law == rule::Law::paper ? melt_slice<Arch, true> : melt_slice<Arch, false>;
+  const bool paper = parameters.flow.law == rule::Law::paper;
+  kernels.freezes = kBuilt.freezing && parameters.freezes();
+  if (kernels.freezes)
+    kernels.melt = paper ? melt_slice<Arch, true, true> : melt_slice<Arch, false, true>;
+  else
+    kernels.melt = paper ? melt_slice<Arch, true, false> : melt_slice<Arch, false, false>;
 }
 
 }  // namespace voxmelt::simd

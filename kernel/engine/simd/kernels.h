@@ -23,6 +23,7 @@ struct View {
   const std::uint64_t* walls = nullptr;  // at (0, 0, 0) of a plane one word and one row wider at every side
   const std::uint64_t* sides = nullptr;  // the same before this step's melt, for the paper law's gravity
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
+  std::uint64_t* set = nullptr;  // cells that are set, by the last melt; null in scenes that do not freeze
   int nx = 0, ny = 0, nz = 0;
   std::size_t row = 0, slice = 0;  // cells from y to y + 1, from z to z + 1
   int words = 0;                   // mask words in a row
@@ -40,6 +41,10 @@ struct View {
   }
   [[gnu::always_inline]] std::size_t word(int w, int y, int z) const {
     return (static_cast<std::size_t>(z) * ny + y) * words + w;
+  }
+  // Returns the cells of a word that are set, w from 0 on.
+  [[gnu::always_inline]] std::uint64_t set_cells(int w, int y, int z) const {
+    return set == nullptr ? 0 : set[word(w, y, z)];
   }
   // Returns the cells that are solid, inert or beyond the grid: w from -1 to words, y from -1 to ny, z from
   // -1 to nz.
@@ -221,7 +226,8 @@ struct Kernels {
                   Books&) = nullptr;
   // Applies radiation and air, cell by cell.
   void (*exchange)(const View&, const Step&, int z, const TileRow* tiles, const HeatTiles&, Books&) = nullptr;
-  // Melts and reheats. No tile is restless after it.
+  // Melts and reheats, freezes and sets. No tile is restless after it. With `freezes` it needs every tile
+  // that has changed, and those beside it.
   void (*melt)(const View&, const Step&, int z, const TileRow* tiles, TileRow* changed, Books&) = nullptr;
 
   // Settles the columns of slice z that have a tile in `tiles` (viscous law, phase `excess`). `tiles` must
@@ -246,6 +252,8 @@ struct Kernels {
   // Lets cells outside runs fall as under the paper law (viscous law, phase `gravity`).
   void (*fall)(const View&, const Step&, int z, const TileRow* tiles, const Runs&, TileRow* changed,
                Books&) = nullptr;
+
+  bool freezes = false;
 };
 
 // Returns the kernels that a scene needs, compiled for an architecture of xsimd (choose_kernels.h).

@@ -1,4 +1,5 @@
-// Phase `melt` turns hot solids into liquid. The extra `reheat` gives hot liquid its energy back.
+// Phase `melt` turns hot solids into liquid. The extra `reheat` gives hot liquid its energy back. Cold liquid
+// freezes where it is full and touches something, and is set elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace voxmelt::simd {
 
-template <class Arch, bool kPaper>
+template <class Arch, bool kPaper, bool kFreezes>
 class Melt {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
@@ -22,6 +23,7 @@ class Melt {
         z_(z),
         reheat_(kPaper && kBuilt.reheat ? step.parameters->flow.paper.reheat : 0),
         melts_(L::set(step.parameters->material.melting_point + step.parameters->material.latent_heat)),
+        freezes_(L::set(step.parameters->material.freezing_point)),
         books_(books) {}
 
   [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
@@ -41,33 +43,73 @@ class Melt {
  private:
   [[gnu::always_inline]] bool word(int w, int y) {
     const std::size_t mask = v_.word(w, y, z_), cell = v_.cell(w, y, z_);
-    const std::uint64_t solid = v_.solid[mask], wet = reheat_ > 0 ? v_.liquid[mask] : 0;
-    if ((solid | wet) == 0) return false;
-    std::uint64_t cold = 0;
+    const std::uint64_t solid = v_.solid[mask], wet = kFreezes || reheat_ > 0 ? v_.liquid[mask] : 0;
+    std::uint64_t frozen = 0;
+    bool stirred = false;
+    if constexpr (kFreezes) {
+      const std::uint64_t cold = wet == 0 ? 0 : cold_cells(cell, wet);
+      if (cold != 0) frozen = cold & full_cells(cell, cold) & touching(w, y);
+      stirred = v_.set[mask] != (cold & ~frozen);
+      if (stirred) v_.set[mask] = cold & ~frozen;
+    }
+    if ((solid | wet) == 0) return stirred;
+    std::uint64_t below = 0;
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(solid | wet, part)) continue;
       const int at = part * L::kCount;
-      cold |= L::to_bits(L::less(L::load(v_.heat + cell + at), melts_)) << at;
+      below |= L::to_bits(L::less(L::load(v_.heat + cell + at), melts_)) << at;
     }
-    const std::uint64_t fresh = solid & ~cold, again = wet & ~cold;
-    if ((fresh | again) == 0) return false;
-    v_.liquid[mask] |= fresh;
-    v_.solid[mask] = solid & ~fresh;
-    bool stirred = false;
-    if constexpr (kPaper) stirred = energise(cell, fresh, again);
-    return fresh != 0 || stirred;
+    const std::uint64_t fresh = solid & ~below, again = reheat_ > 0 ? wet & ~below : 0;
+    if ((fresh | again | frozen) == 0) return stirred;
+    v_.liquid[mask] = (v_.liquid[mask] | fresh) & ~frozen;
+    v_.solid[mask] = (solid & ~fresh) | frozen;
+    if constexpr (kPaper) stirred |= energise(cell, fresh, again, frozen);
+    return (fresh | frozen) != 0 || stirred;
   }
 
-  // Fresh liquid gets E = A. Other liquid gets a part of what it lacks.
-  [[gnu::always_inline]] bool energise(std::size_t cell, std::uint64_t fresh, std::uint64_t again) {
+  // Returns the liquid cells below the freezing point.
+  [[gnu::always_inline]] std::uint64_t cold_cells(std::size_t cell, std::uint64_t wet) const {
+    std::uint64_t cold = 0;
+    for (int part = 0; part < L::kParts; ++part)
+      if (L::in_part(wet, part))
+        cold |= L::to_bits(L::less(L::load(v_.heat + cell + part * L::kCount), freezes_))
+                << (part * L::kCount);
+    return wet & cold;
+  }
+  // Returns those of some cells that hold enough to become solid.
+  [[gnu::always_inline]] std::uint64_t full_cells(std::size_t cell, std::uint64_t cells) const {
+    const V least = L::set(4096 - 64);
+    std::uint64_t short_of = 0;
+    for (int part = 0; part < L::kParts; ++part)
+      if (L::in_part(cells, part))
+        short_of |= L::to_bits(L::less(L::load(v_.amount + cell + part * L::kCount), least))
+                    << (part * L::kCount);
+    return cells & ~short_of;
+  }
+  // Returns the cells beside something blocked. The plane of walls is that before this phase.
+  [[gnu::always_inline]] std::uint64_t touching(int w, int y) const {
+    const std::uint64_t* row = v_.walls_at(y, z_);
+    return cpu::from_right(row[w], row[w + 1]) | cpu::from_left(row[w], row[w - 1]) |
+           v_.blocked(w, y - 1, z_) | v_.blocked(w, y + 1, z_) | v_.blocked(w, y, z_ - 1) |
+           v_.blocked(w, y, z_ + 1);
+  }
+
+  // Fresh liquid gets E = A, and frozen cells lose it. Other liquid gets a part of what it lacks.
+  [[gnu::always_inline]] bool energise(std::size_t cell, std::uint64_t fresh, std::uint64_t again,
+                                       std::uint64_t frozen) {
     V any = L::zero();
     for (int part = 0; part < L::kParts; ++part) {
-      if (!L::in_part(fresh | again, part)) continue;
+      if (!L::in_part(fresh | again | frozen, part)) continue;
       const std::size_t at = cell + static_cast<std::size_t>(part * L::kCount);
       const V amount = L::load(v_.amount + at), energy = L::load(v_.energy + at);
       const V melted = L::keep(L::from_bits(fresh, part), amount - energy);
       const V reheated = L::keep(L::from_bits(again, part), L::high(amount - energy, L::set(reheat_)));
-      L::store(v_.energy + at, energy + melted + reheated);
+      V lost = L::zero();
+      if constexpr (kFreezes) {
+        lost = L::keep(L::from_bits(frozen, part), energy);
+        frozen_.add(lost);
+      }
+      L::store(v_.energy + at, energy + melted + reheated - lost);
       melted_.add(melted);
       reheated_.add(reheated);
       any = any | melted | reheated;
@@ -79,7 +121,8 @@ class Melt {
     if constexpr (kPaper) {
       books_.energy.melted += melted_.total();
       books_.energy.reheated += reheated_.total();
-      melted_ = reheated_ = {};
+      books_.energy.frozen += frozen_.total();
+      melted_ = reheated_ = frozen_ = {};
     }
   }
 
@@ -87,9 +130,9 @@ class Melt {
   const View v_;
   const int z_;
   const int reheat_;
-  const V melts_;
+  const V melts_, freezes_;
   Books& books_;
-  typename L::Sums melted_, reheated_;
+  typename L::Sums melted_, reheated_, frozen_;
 };
 
 }  // namespace voxmelt::simd

@@ -31,7 +31,7 @@ template <class Arch, bool kHot>
 void choose_paper_kernels(const rule::Parameters& parameters, Kernels& kernels) {
   const rule::Flow& flow = parameters.flow;
   const rule::PaperLaw& law = flow.paper;
-  const bool guided = kBuilt.guided && (!flow.fall.is_free() || law.beta != 65536 ||
+  const bool guided = kBuilt.guided && (!flow.fall.is_free() || parameters.freezes() || law.beta != 65536 ||
                                         law.reading == rule::EnergyReading::printed);
   kernels.gravity = guided ? gravity_row<Arch, GravityFeatures{kHot, true}>
                            : gravity_row<Arch, GravityFeatures{kHot, false}>;

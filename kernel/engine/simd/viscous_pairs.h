@@ -39,10 +39,11 @@ class ViscousPairs {
   }
 
   struct Masks {
-    std::uint64_t in_run, there[4];  // this cell, the other one of a pair
-    std::uint64_t pair[4], any;      // open, one of them is in a run, and not both in shut ones
-    std::uint64_t beside[2][4];      // blocked cells beside the axis pairs
-    bool walls;                      // any of them beside a pair
+    std::uint64_t in_run, there[4];   // this cell, the other one of a pair
+    std::uint64_t pair[4], any;       // open, one of them is in a run, and not both in shut ones
+    std::uint64_t beside[2][4];       // blocked cells beside the axis pairs
+    bool walls;                       // any of them beside a pair
+    std::uint64_t set, set_there[4];  // cells that are set: this one, the other one of a pair
   };
 
   // Returns the words of row y whose pairs may have a head that is cut.
@@ -84,6 +85,7 @@ class ViscousPairs {
       m.pair[2] &= ~(own_shut & cpu::from_right(front_shut, shut(w + 1, y, z_ + 1)));
       m.pair[3] &= ~(own_shut & cpu::from_left(front_shut, shut(w - 1, y, z_ + 1)));
     }
+    find_set(w, y, m);
     for (const std::uint64_t pairs : m.pair) m.any |= pairs;
     if (m.any == 0) return false;
 
@@ -96,6 +98,20 @@ class ViscousPairs {
     for (int axis = 0; axis < 2; ++axis)
       for (int i = 0; i < 4; ++i) m.walls |= (m.beside[axis][i] = beside[axis][i] & m.pair[axis]) != 0;
     return true;
+  }
+
+  [[gnu::always_inline]] std::uint64_t set_cells(int w, int y, int z) const {
+    return w < 0 || w >= v_.words || z >= v_.nz ? 0 : v_.set[v_.word(w, y, z)];
+  }
+  [[gnu::always_inline]] void find_set(int w, int y, Masks& m) const {
+    m.set = m.set_there[0] = m.set_there[1] = m.set_there[2] = m.set_there[3] = 0;
+    if (v_.set == nullptr) return;
+    const std::uint64_t front = set_cells(w, y, z_ + 1);
+    m.set = set_cells(w, y, z_);
+    m.set_there[0] = cpu::from_right(m.set, set_cells(w + 1, y, z_));
+    m.set_there[1] = front;
+    m.set_there[2] = cpu::from_right(front, set_cells(w + 1, y, z_ + 1));
+    m.set_there[3] = cpu::from_left(front, set_cells(w - 1, y, z_ + 1));
   }
 
   struct Cell {
@@ -138,6 +154,7 @@ class ViscousPairs {
     V dead = L::select(p.gives, own.dead, L::load_any(r_.dead + there));
     if constexpr (kDiagonal) dead = L::add_saturated(dead, L::high(dead, L::set(3 << 13)));
     p.moves = L::to_bits(L::less(dead, p.drop)) & (among >> (part * L::kCount));
+    keep_set(m, axis, part, p);
     if (p.moves == 0) return false;
 
     const M here_runs = L::from_bits(m.in_run, part), there_runs = L::from_bits(m.there[axis], part);
@@ -154,6 +171,13 @@ class ViscousPairs {
       for (const std::uint64_t blocked : m.beside[axis])
         p.blocked = p.blocked + L::keep(L::from_bits(blocked, part), L::set(1));
     return true;
+  }
+
+  // Takes out the lanes whose giver is set.
+  [[gnu::always_inline]] static void keep_set(const Masks& m, int axis, int part, Pair& p) {
+    if ((m.set | m.set_there[axis]) == 0) return;
+    const std::uint64_t gives = L::to_bits(p.gives);
+    p.moves &= ~((gives & m.set >> (part * L::kCount)) | (~gives & m.set_there[axis] >> (part * L::kCount)));
   }
 
   // Tells if all beds are level, or none, and nothing blocked is beside a pair. Else it gives the factor.

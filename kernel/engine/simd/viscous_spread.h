@@ -102,7 +102,11 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     if (!this->template look<kDiagonal>(own, at, axis, part, m, m.pair[axis], deep, p)) return L::zero();
     const M runs = L::from_bits(m.in_run & m.there[axis], part);
     V drop;
-    if constexpr (kFeatures.relaxed) drop = this->template relaxed_drop<kDiagonal>(p, at, axis, runs);
+    if constexpr (kFeatures.relaxed) {
+      drop = this->template relaxed_drop<kDiagonal>(p, at, axis, runs);
+      this->keep_set(m, axis, part, p);  // where liquid flows back
+      if (p.moves == 0) return L::zero();
+    }
     const V room = L::sub_saturated(L::select(runs, L::set(0xFFFF), L::set(4096)), p.taker);
     V most = L::high(L::min(p.giver, room), L::set(13107));
     if constexpr (kDiagonal) most = L::template shift_right<2>(most);

@@ -49,7 +49,9 @@ json heat_json(const rule::Heat& heat) {
           {"sources", sources_json(heat)},
           {"air", heat.air},
           {"air_exchange", heat.air_exchange},
-          {"air_temperature", heat.air_temperature}};
+          {"air_temperature", heat.air_temperature},
+          {"air_glow", heat.air_glow},
+          {"air_sky", heat.air_sky}};
 }
 
 json regions_json(const rule::Parameters& p) {
@@ -117,7 +119,8 @@ std::string parameters_json(const rule::Parameters& parameters, state::Grid grid
                  {"seed", parameters.seed},
                  {"material",
                   {{"melting_point", parameters.material.melting_point},
-                   {"latent_heat", parameters.material.latent_heat}}},
+                   {"latent_heat", parameters.material.latent_heat},
+                   {"freezing_point", parameters.material.freezing_point}}},
                  {"pieces",
                   {{"fall", parameters.pieces.fall},
                    {"in_liquid", parameters.pieces.in_liquid},

@@ -164,6 +164,13 @@ const std::vector<Case>& cases() {
        "scene.toml:5:13: error: inert.0.thickness = 9 is outside 1..8"},
       {kGrid + "[material]\nlatent_heat = 0.25\n[[inert]]\nshape = \"floor\"\ntemperature = 0.76\n",
        "scene.toml:7:15: error: inert.0.temperature = 0.76 exceeds 0.749996: latent heat takes the rest"},
+      {kGrid + "[material]\nmelting_point = 0.4\nfreezing_point = 0.41\n",
+       "scene.toml:5:18: error: material.freezing_point = 0.41 is above melting_point = 0.4"},
+      {kGrid + "[material]\nfreezing_point = 0\n",
+       "scene.toml:4:18: error: material.freezing_point = 0 must be more than 0"},
+      {kGrid + "[heat]\n[heat.air]\nglow = 0.2\n",
+       "scene.toml:5:8: error: heat.air.glow = 0.2 exceeds 0.16666"},
+      {kGrid + "[heat]\n[heat.air]\nglow = 0\n", "scene.toml:4:1: error: heat.air.exchange is missing"},
       // Files are wrong.
       {kGrid + "[[solid]]\nshape = \"mesh\"\nfile = \"none.obj\"\nheight = 4\n",
        "scene.toml:5:8: error: cannot read none.obj: No such file or directory"},

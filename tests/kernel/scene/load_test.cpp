@@ -186,6 +186,7 @@ seed = 77
 [material]
 melting_point = 0.75
 latent_heat = 0.25
+freezing_point = 0.5
 [heat]
 neighbours = 26
 gamma = 0.5236
@@ -194,6 +195,8 @@ convection = 0.5
 exchange = 0.57735
 bottom = 0.0
 top = 1.0
+glow = 0.16666
+sky = 0.25
 [[heat_source]]
 at = [-1.5, 10, 20.0625]
 power = 140
@@ -239,6 +242,9 @@ doubling = 0.03125
   EXPECT_EQ(p.seed, 77u);
   EXPECT_EQ(p.material.melting_point, 49151);
   EXPECT_EQ(p.material.latent_heat, 16384);
+  EXPECT_EQ(p.material.freezing_point, 32768);
+  EXPECT_EQ(p.heat.air_glow, 10922);
+  EXPECT_EQ(p.heat.air_sky, 16384);
   EXPECT_EQ(p.heat.weight_face, 10922);
   EXPECT_EQ(p.heat.weight_edge, 5461);
   EXPECT_EQ(p.heat.weight_corner, 3640);
@@ -283,9 +289,23 @@ doubling = 0.03125
   EXPECT_EQ(p.flow.paper.beta, 262144u);
   EXPECT_EQ(p.flow.mobility_table[0], 32768);
   EXPECT_EQ(p.flow.mobility_table[1], 65535);
-  EXPECT_EQ(features_of(p),
-            (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat", "vent",
-                                      "drain", "diagonal", "drip", "reheat", "thermal_viscosity"}));
+  EXPECT_EQ(features_of(p), (std::vector<std::string>{"heat", "radiation", "air", "convection", "latent_heat",
+                                                      "freezing", "glow", "vent", "drain", "diagonal", "drip",
+                                                      "reheat", "thermal_viscosity"}));
+}
+
+// Glow needs no moving air.
+TEST(Load, GlowAlone) {
+  const SceneFolder folder;
+  const std::string heat = std::string(kLeast) + "[heat]\n[heat.air]\n";
+  const rule::Parameters p = folder.load_text(heat + "glow = 0.01\n").parameters;
+  EXPECT_EQ(p.heat.air_glow, 655);
+  EXPECT_EQ(p.heat.air_sky, 0);
+  EXPECT_EQ(p.heat.air_exchange, 0);
+  EXPECT_EQ(p.heat.air_temperature, std::vector<rule::Temperature>(9, 0));
+  EXPECT_EQ(p.material.freezing_point, 0) << "nothing freezes unless a scene says so";
+  const rule::Parameters still = folder.load_text(heat + "exchange = 0.01\nbottom = 0\n").parameters;
+  EXPECT_EQ(still.heat.air_glow, 0);
 }
 
 TEST(Load, TheCamerasProjection) {

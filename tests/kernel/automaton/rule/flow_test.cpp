@@ -39,6 +39,7 @@ TEST(Released, HangsBelowAnOverhangUntilHeavy) {
   EXPECT_EQ(released(4096, fall, {true, false}), 512 + 32);
   EXPECT_EQ(released(20, fall, {true, false}), 20);
   fall.hang = 0;
+  EXPECT_EQ(released(4096, fall, {false, false, true}), 0) << "it is set, and clings";
   EXPECT_EQ(released(1, fall, {true, true}), 1);
 }
 

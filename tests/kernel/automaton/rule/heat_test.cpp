@@ -34,6 +34,41 @@ struct Pass {
 };
 constexpr std::array<Pass, 3> kPasses{{{3, 10922}, {6, 5461}, {4, 3640}}};
 
+TEST(Glow, GoesWithTheFourthPower) {
+  EXPECT_EQ(fourth_power(0), 0);
+  EXPECT_EQ(fourth_power(32768), 4096);   // 1/16 of 65536
+  EXPECT_EQ(fourth_power(65535), 65532);  // 65534 squared is 65532.00006 x 65536
+  const Material cold{.melting_point = 65535};
+  // A corner has 6/4 of 10922, 16383: -65532 x 16383 / 65536 is -16382.00006, and D rounds it up.
+  EXPECT_EQ(glowed(65535, 0, 10922, 3, 0, cold), -16383);
+  EXPECT_EQ(glowed(65535, 0, 10922, 3, 65535, cold), -16382);
+  EXPECT_EQ(glowed(0, 65535, 10922, 1, 0, cold), 10921);
+  EXPECT_EQ(glowed(65530, 65535, 10922, 3, 65535, cold), 5);  // 20 x 1/4, and no more than there is room for
+  // Latent heat keeps the temperature at the melting point.
+  EXPECT_EQ(glowed(40000, 0, 10922, 1, 0, {.melting_point = 32768, .latent_heat = 20000}), -683);
+}
+
+// It brings a cell no further than to the temperature of what it glows at, but for one unit.
+TEST(Glow, StaysBetween) {
+  const Material cold{.melting_point = 65535};
+  for (const int sky : {0, 1, 777, 32768, 65000, 65535})
+    for (int h = 0; h <= 65535; ++h)
+      for (const int offset : {0, 65535}) {
+        const int after = h + glowed(h, sky, 10922, 3, offset, cold);
+        ASSERT_GE(after, std::max(0, std::min(h, sky) - 1)) << h << ", sky " << sky;
+        ASSERT_LE(after, std::min(65535, std::max(h, sky) + 1)) << h << ", sky " << sky;
+      }
+}
+
+TEST(Freeze, WhatIsColdAndFull) {
+  const Material wax{.melting_point = 30000, .freezing_point = 29000};
+  EXPECT_TRUE(is_cold(28999, wax));
+  EXPECT_FALSE(is_cold(29000, wax));
+  EXPECT_FALSE(is_cold(0, {.melting_point = 30000})) << "0 is off";
+  EXPECT_TRUE(is_full(4032));
+  EXPECT_FALSE(is_full(4031));
+}
+
 TEST(Conduction, WorstStepIsTheWorst) {
   for (const Pass pass : kPasses)
     for (const std::int32_t u : {1, 2, 3, 5, 6, 7, 11, 12, 13, 1000, 65535}) {

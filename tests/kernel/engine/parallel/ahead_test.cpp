@@ -73,6 +73,7 @@ TEST_P(Ahead, SameBitsAfterEveryStep) {
     Random random(seed * 7321 + 5);
     const Grid grid = tall_grid(random);
     Parameters parameters = hostile_parameters(random, rule::Law::paper, grid);
+    may_freeze(random, parameters);
     if (!random.one_in(3)) parameters.heat = {};
     if (random.one_in(2)) parameters.flow.fall = {};
     Volume start = hostile_volume(random, parameters, grid);

@@ -38,6 +38,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
     Random random(seed * 7919 + (law == rule::Law::paper ? 1 : 2));
     const Grid grid = any_grid(random);
     Parameters parameters = hostile_parameters(random, law, grid);
+    may_freeze(random, parameters);
     if (random.one_in(2)) parameters.heat = {};  // so that cells come to rest, and tiles sleep
     if (random.one_in(2)) {
       parameters.vents.clear();
@@ -60,6 +61,7 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
     Parameters parameters = hostile_parameters(random, law, grid);
     if (random.one_in(2)) parameters.flow.viscous.stages_max = random.any<std::uint16_t>({2, 3, 5, 16});
     parameters.heat.radiation = false;
+    may_freeze(random, parameters);
     Volume start = hostile_volume(random, parameters, grid);
     if (seed % 2 == 1) thin_out(random, start);
     step::Tuning tuning = any_tuning(random);

@@ -191,6 +191,7 @@ TEST_P(Pieces, FallAsTheReferenceInRubble) {
     Random random(seed);
     const Grid grid{random.any({5, 20, 63, 64, 65, 130}), random.between(4, 30), random.between(2, 20)};
     Parameters p = hostile_parameters(random, random.one_in(2) ? rule::Law::paper : rule::Law::viscous, grid);
+    may_freeze(random, p);
     if (random.one_in(2)) p.heat = {};
     p.pieces = {true, random.any({1, 1, 2, 3}), random.any<std::int64_t>({65536, 65536, 30000, 60000})};
     const Volume start = rubble(random, grid);

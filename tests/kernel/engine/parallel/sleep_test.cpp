@@ -41,6 +41,9 @@ void calm_heat(Random& random, Grid g, Parameters& p) {
   if (random.one_in(3)) p.heat.air_temperature[static_cast<std::size_t>(random.below(g.y))] = 42000;
   p.material.melting_point = static_cast<rule::Temperature>(random.any({30001, 30400, 36000}));
   p.material.latent_heat = static_cast<rule::Temperature>(random.any({0, 0, 300}));
+  p.material.freezing_point = static_cast<rule::Temperature>(
+      random.any({0, 0, 30000, 30001, std::int32_t{p.material.melting_point}}));
+  p.heat.air_glow = static_cast<std::uint16_t>(random.any({0, 0, 0, 900}));
   p.heat.radiation = random.one_in(3);
   p.heat.visibility_every = static_cast<std::uint32_t>(random.any({1, 3, 7}));
   rule::HeatSource source;  // dark until it comes near

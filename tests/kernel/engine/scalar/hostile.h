@@ -50,6 +50,17 @@ inline void hostile_heat_parameters(Random& random, Grid g, Parameters& p) {
   p.heat.sources.assign(2, source);
 }
 
+// Lets a scene freeze and glow, which hostile parameters alone do not. Half of them stay as they are.
+inline void may_freeze(Random& random, Parameters& p) {
+  if (random.one_in(2)) return;
+  const std::int32_t tm = p.material.melting_point;
+  p.material.freezing_point =
+      static_cast<rule::Temperature>(random.any({tm, tm, std::max(0, tm - 300), random.below(tm + 1)}));
+  p.heat.air_glow = static_cast<std::uint16_t>(random.any({0, 1, 700, 10922}));
+  p.heat.air_sky = static_cast<rule::Temperature>(random.any({0, 65535, random.below(65536)}));
+  if (p.heat.air_glow > 0 && random.one_in(3)) p.heat.air_exchange = 0;
+}
+
 inline void hostile_paper_law(Random& random, rule::PaperLaw& law) {
   law.neighbours = random.any({4, 8});
   law.threshold = static_cast<std::uint16_t>(random.any({0, 1, 1434, 65535}));

@@ -55,7 +55,7 @@ void expect_only_near_changed(const Volume& before, const Volume& after, Phase p
   });
 }
 
-void expect_blocked_kept(const Volume& before, const Volume& after, Phase phase) {
+void expect_blocked_kept(const Parameters& p, const Volume& before, const Volume& after, Phase phase) {
   ASSERT_TRUE(before.inert == after.inert);
   if (phase != Phase::melt) {
     ASSERT_TRUE(before.solid == after.solid);
@@ -65,9 +65,14 @@ void expect_blocked_kept(const Volume& before, const Volume& after, Phase phase)
     if (before.inert.test(x, y, z) || before.solid.test(x, y, z)) {
       ASSERT_EQ(before.amount[i], after.amount[i]);
     }
-    if (!before.solid.test(x, y, z)) {
-      ASSERT_FALSE(after.solid.test(x, y, z)) << "nothing freezes";
-    }
+    if (before.solid.test(x, y, z) || !after.solid.test(x, y, z)) return;
+    ASSERT_EQ(phase, Phase::melt) << "a cell became solid";
+    ASSERT_TRUE(before.liquid.test(x, y, z));
+    ASSERT_LT(before.heat[i], p.material.freezing_point);
+    ASSERT_GE(before.amount[i], 4032);
+    ASSERT_EQ(after.amount[i], before.amount[i]);
+    ASSERT_EQ(after.heat[i], before.heat[i]);
+    ASSERT_EQ(after.energy[i], 0);
   });
 }
 
@@ -76,7 +81,8 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
   const int cases = grid.cells() > 500 ? kCases / 4 : kCases;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(cases); ++seed) {
     Random random(seed * 977 + grid.cells());
-    const Parameters p = hostile_parameters(random, law, grid);
+    Parameters p = hostile_parameters(random, law, grid);
+    may_freeze(random, p);
     run::Simulation s = simulate(p, hostile_volume(random, p, grid));
     ASSERT_EQ(broken_invariant(s.volume(), p), "") << "the start, seed " << seed;
     for (int i = 0; i < kSteps; ++i) {
@@ -95,7 +101,7 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
               << "mass comes and goes by sources only";
           expect_only_near_changed(before, v, phase);
         }
-        expect_blocked_kept(before, v, phase);
+        expect_blocked_kept(p, before, v, phase);
         before = v;
         books = s.ledger();
       });

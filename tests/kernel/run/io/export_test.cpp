@@ -129,6 +129,9 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
   p.drains = {{}};
   p.open_border = true;
   p.pieces = {true, 321, 43210};
+  p.material.freezing_point = 12345;
+  p.heat.air_glow = 4321;
+  p.heat.air_sky = 23456;
   const std::string json = parameters_json(p, {3, 4, 5}, 17);
   for (const char* key : {"grid",
                           "border",
@@ -137,6 +140,7 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "material",
                           "melting_point",
                           "latent_heat",
+                          "freezing_point",
                           "pieces",
                           "in_liquid",
                           "density",
@@ -161,6 +165,8 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
                           "air",
                           "air_exchange",
                           "air_temperature",
+                          "air_glow",
+                          "air_sky",
                           "vents",
                           "radius",
                           "rate",
@@ -214,7 +220,8 @@ TEST(ParametersJson, NamesEverythingOfSection14) {
       << dense;
   for (const char* value :
        {"\"seed\": 18446744073709551615", "\"step\": 17", "\"power\": 1125899906842623", "\"law\": \"paper\"",
-        "\"border\": \"open\"", "\"in_liquid\": 321", "\"density\": 43210"})
+        "\"border\": \"open\"", "\"freezing_point\": 12345", "\"air_glow\": 4321", "\"air_sky\": 23456",
+        "\"in_liquid\": 321", "\"density\": 43210"})
     EXPECT_NE(json.find(value), std::string::npos) << value;
 }
 
