@@ -2,6 +2,7 @@
 import struct
 
 ONE, AMOUNT_MOST, HEAT_MOST = 4096, 65535, 65535  # docs/automaton.md, section 1
+FREEZES_FROM = ONE - ONE // 64  # section 7
 KINDS = ("air", "solid", "liquid", "inert")
 CODES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
 
@@ -25,9 +26,10 @@ class Fields:
         material = scene["material"]
         melting_point = round(material.get("melting_point", 0.5) * HEAT_MOST)
         melts = melting_point + round(material.get("latent_heat", 0) * HEAT_MOST)
-        near = [h + d for h in (melting_point, melts) for d in (-1, 0, 1)]
+        self.freezes = round(material.get("freezing_point", 0) * HEAT_MOST)
+        near = [h + d for h in (melting_point, melts, self.freezes) for d in (-1, 0, 1)]
         self.heats = [0, 1, HEAT_MOST - 1, HEAT_MOST, *(h for h in near if 0 <= h <= HEAT_MOST)]
-        self.amounts = [1, 2, ONE // 2, ONE - 1, ONE, ONE + 1, 2 * ONE, 8 * ONE, 11 * ONE, AMOUNT_MOST - 1, AMOUNT_MOST]
+        self.amounts = [1, 2, ONE // 2, FREEZES_FROM - 1, FREEZES_FROM, ONE - 1, ONE, ONE + 1, 2 * ONE, 8 * ONE, 11 * ONE, AMOUNT_MOST - 1, AMOUNT_MOST]
         self.most = dice.choice((ONE, ONE, 2 * ONE, AMOUNT_MOST))
         self.hostile = dice.choice((0.05, 0.3, 0.8))
         self.weights = [dice.random() for _ in range(4)]
@@ -35,6 +37,8 @@ class Fields:
         self.layered, self.blocked = dice.random() < 0.5, dice.random() < 0.4
         self.adrift = "pieces" in scene and dice.random() < 0.8
         self.melts = melts
+        self.cools = self.freezes > 0 and dice.random() < 0.6  # most liquid is not much warmer than where it freezes
+        self.cold_walls = self.cools and self.walls and dice.random() < 0.7
         self.fill()
 
     def one_of(self, values, low, high):
@@ -92,9 +96,13 @@ class Fields:
         energy = heat = 0
         if kind == "inert":  # a bed offset
             amount = self.dice.choice((0, 2047, 2048, 2049, 4095, self.dice.randint(0, 4095)))
-            heat = self.one_of(self.heats, 0, HEAT_MOST) if self.walls and amount else 0
+            most = self.freezes if self.cold_walls else HEAT_MOST
+            heat = self.one_of(self.heats, 0, most) if self.walls and amount else 0
         if kind in ("solid", "liquid"):
             amount, heat = amount or self.one_of(self.amounts, 1, self.most), self.one_of(self.heats, 0, HEAT_MOST)
+        if kind == "liquid" and self.cools and self.dice.random() < 0.8:
+            heat = self.dice.randint(self.freezes, min(HEAT_MOST, self.freezes + HEAT_MOST // 16))
+            amount = self.dice.choice((amount, self.dice.randint(FREEZES_FROM - 2, ONE)))
         if kind == "solid" and self.adrift and self.dice.random() < 0.9:
             heat = self.dice.randint(0, max(0, self.melts - 1))  # else bodies melt at once
         if kind == "liquid":

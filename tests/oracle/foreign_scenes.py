@@ -77,17 +77,41 @@ class Maker:
             material["melting_point"] = TINY
         elif material.get("latent_heat", 0) > room:  # together at most 1
             material["latent_heat"] = max(0, math.floor(room * HEAT_MOST) - 1) / HEAT_MOST
+        if self.gives("material.freezing_point", 0.55):
+            self.freezing(material)
         return material
+
+    def freezing(self, material):
+        """A freezing point of at most the melting point, often both the same."""
+        point = self.draw("material.freezing_point")
+        if self.wanted == "material.freezing_point" and point > material.get("melting_point", 0.5):
+            material.update(melting_point=point, latent_heat=0)
+        melting_point = material.get("melting_point", 0.5)
+        free = not self.wanted.startswith("material.")
+        material["freezing_point"] = melting_point if free and self.chance(0.3) else min(point, melting_point)
+
+    def air(self, freezing_point):
+        """Moving air, glow, or both; where liquid freezes, the air is often cold."""
+        glow = self.draw("heat.air.glow") if self.gives("heat.air.glow", 0.5) else 0
+        air = {"bottom": self.draw("heat.air.bottom"), **self.some("heat.air", "top")}
+        if glow > 0 or self.wanted == "heat.air.glow":
+            air["glow"] = glow
+        if glow == 0 or self.gives("heat.air.exchange", 0.6):
+            air["exchange"] = self.draw("heat.air.exchange")
+        if self.gives("heat.air.sky", 0.6 if glow > 0 else 0.1):
+            air["sky"] = self.draw("heat.air.sky")
+        if freezing_point and not self.wanted.startswith("heat.air.") and self.chance(0.6):
+            air[self.dice.choice(("bottom", "top"))] = freezing_point * self.dice.random()
+        return air
 
     def pieces(self):
         """Without the key `fall`, pieces fall."""
         return {**self.some("pieces", "in_liquid", "density", given=0.8), **self.some("pieces", "fall", given=0.1)}
 
-    def heat(self):
+    def heat(self, freezing_point):
         heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every", "rays_per_face")
-        if self.gives("heat.air", 0.5):
-            heat["air"] = {"exchange": self.draw("heat.air.exchange"), "bottom": self.draw("heat.air.bottom"),
-                           **self.some("heat.air", "top")}
+        if self.gives("heat.air", 0.7 if freezing_point else 0.5):
+            heat["air"] = self.air(freezing_point)
         return heat
 
     def region(self, table):
@@ -174,8 +198,8 @@ class Maker:
         if self.gives("pieces", 0.33):  # nearly all scenes have solids
             scene["pieces"] = self.pieces()
         sources = self.gives("heat_source", 0.5)
-        if sources or self.gives("heat", 0.7):
-            scene["heat"] = self.heat()
+        if sources or self.gives("heat", 0.9 if "freezing_point" in scene["material"] else 0.6):
+            scene["heat"] = self.heat(scene["material"].get("freezing_point", 0))
             if sources:
                 scene["heat_source"] = [source(self) for _ in range(self.dice.randint(1, 4))]
         for table in ("vent", "drain"):

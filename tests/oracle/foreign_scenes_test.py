@@ -26,6 +26,8 @@ from foreign_sources import KEYS_OF
 
 LEDGERS = ("mass", "energy", "heat")
 COUNTERS = ("cells", "mass", "limited_cells", "limited_mass")  # in the order of the oracle's line
+FREEZE = ("a cell freezes", "a cell is set", "a set cell does not give", "a set cell does not fall",
+          "nothing flows back from a set cell", "a frozen cell melts")  # likewise
 MOST_WORK = 1000000  # cells x sub-steps x steps of a run of more than one step
 MANY_SUBSTEPS = 20
 CASTERS = ("auto", "walk", "two-level")  # of voxmelt --visibility
@@ -50,12 +52,13 @@ def implementations(voxmelt):
 
 
 def of_oracle(oracle, start, steps, fields):
-    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; and what happens to pairs and pieces."""
+    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; and what happens to pairs, to pieces
+    and where it is cold."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
     digests = [line for line in lines if line.startswith("step")]
     ledgers = {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
     counters, *moves = (next([int(n) for n in line.split()[1:]] for line in lines if line.startswith(word))
-                        for word in ("counters", "pairs", "pieces"))
+                        for word in ("counters", "pairs", "pieces", "freeze"))
     return digests, ledgers, counters, moves
 
 
@@ -92,7 +95,7 @@ def field(folder, name):
 
 def events(scene, steps, digests, moves, report, start, end):
     """What may happen in a scene, by name, and whether it did in this one."""
-    pairs, pieces = moves
+    pairs, pieces, freeze = moves
     first, side = scene.get("start", {}).get("step", 0), scene["grid"]["size"][0]
     moved = sum(abs(a - b) for a, b in zip(field(start, "amount"), field(end, "amount")))
     solids = [int(line.split()[7]) for line in (digests[0], digests[-1])]
@@ -104,7 +107,7 @@ def events(scene, steps, digests, moves, report, start, end):
     changing = [s for s in sources if len(s.get("keyframes", [])) > 1]
     substeps = scene["flow"].get("viscous", {}).get("substeps")
     return terms | {
-        "liquid flows": flows, "solids melt": melts, "dead": not flows and not melts,
+        "liquid flows": flows, "solids melt": melts, "dead": not flows and not melts and freeze[0] == 0,
         "law: paper": report["law"] == "paper", "law: viscous": report["law"] == "viscous",
         "crosses step 2^31": first < 2**31 < first + steps, "crosses a multiple of 2^16": first % 2**16 + steps > 2**16,
         "63 cells and more along x": side > 62,
@@ -115,6 +118,7 @@ def events(scene, steps, digests, moves, report, start, end):
         "a relaxed pair flows back": pairs[1] > 0,
         "a shut pair would give": pairs[2] > 0,
         "a piece falls": pieces[0] > 0, "a piece wades": pieces[1] > 0, "a piece floats": pieces[2] > 0,
+        **{name: count > 0 for name, count in zip(FREEZE, freeze)},
         "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
         "several kinds of sources": len({s.get("kind", "point") for s in sources}) > 1,
         **{f"keyframes of a {s.get('kind', 'point')}": True for s in changing},

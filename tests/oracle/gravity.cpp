@@ -5,10 +5,14 @@ namespace oracle {
 namespace {
 
 // Returns what cell q, at `at`, is ready to let fall into p. Both have the amounts of the moment.
-Int ready_to_fall(const State& state, const Cell& p, const Cell& q, Place at) {
+Int ready_to_fall(State& state, const Cell& p, const Cell& q, Place at) {
   const Fall& fall = state.parameters.fall;
   const bool wall = state.beside_wall(at);
   const bool touches = wall || state.blocked(at.x, at.y + 1, at.z);
+  if (state.is_set(state.index(at.x, at.y, at.z)) && touches) {
+    ++state.freeze_counts.hung;
+    return 0;
+  }
   if (fall.hang > 0 && q.amount < fall.hang && p.amount == 0 && touches) return 0;
   const Int g = wall ? fall.wall_factor : fall.factor;
   return smaller(q.amount, ((q.amount * g) >> 16) + fall.minimum);

@@ -1,4 +1,4 @@
-// Heat and melting follow docs/automaton.md sections 6 and 7.
+// Heat follows docs/automaton.md section 6.
 #include <vector>
 
 #include "state.h"
@@ -103,22 +103,43 @@ Int airy_axes(const State& state, Place p) {
   return n;
 }
 
-void exchange_with_air(State& state) {
-  const Heat& rules = state.parameters.heat;
+// Lets each cell of matter beside air gain scaled(difference(its place, its T), w). w is `rate` by the area
+// that air sees.
+template <typename Difference>
+void gain_through_surface(State& state, Int rate, Difference difference, const char* name) {
   for (const Int i : state.list) {
     if (!state.matter(i)) continue;
     const Place p = state.place(i);
     const Int n = airy_axes(state, p);
     if (n == 0) continue;
     Cell& cell = state.cells[i];
-    const Int w = (rules.air_exchange * (3 + n)) >> 2;
-    const Int difference = rules.air_temperature[p.y] - temperature(state, i);
-    const Int gained = smaller(scaled(difference, w, state.offset), 65535 - cell.heat);
+    const Int w = (rate * (3 + n)) >> 2;
+    const Int wanted = scaled(difference(p, temperature(state, i)), w, state.offset);
+    const Int gained = smaller(wanted, 65535 - cell.heat);
     cell.heat += gained;
     if (gained > 0) state.ledgers.heat.warmed += cell.amount * gained;
     if (gained < 0) state.ledgers.heat.cooled -= cell.amount * gained;
-    check_cell(state, i, "after the exchange with air");
+    check_cell(state, i, name);
   }
+}
+
+void exchange_with_air(State& state) {
+  const Heat& rules = state.parameters.heat;
+  const auto difference = [&](Place p, Int T) { return rules.air_temperature[p.y] - T; };
+  gain_through_surface(state, rules.air_exchange, difference, "after the exchange with air");
+}
+
+// Returns q(t), which goes with the fourth power of a temperature.
+constexpr Int fourth_power(Int t) {
+  const Int square = (t * t) >> 16;
+  return (square * square) >> 16;
+}
+
+void glow(State& state) {
+  const Heat& rules = state.parameters.heat;
+  const Int sky = fourth_power(rules.air_sky);
+  const auto difference = [&](Place, Int T) { return sky - fourth_power(T); };
+  gain_through_surface(state, rules.air_glow, difference, "after glow");
 }
 
 }  // namespace
@@ -133,30 +154,8 @@ void heat(State& state) {
   if (rules.convection > 0) convect(state, changes);
   if (rules.radiation) radiate(state);
   if (rules.air) exchange_with_air(state);
+  if (rules.air && rules.air_glow > 0) glow(state);
   finish_phase(state, "after heat");
-}
-
-void melt(State& state) {
-  const Parameters& parameters = state.parameters;
-  if (!parameters.heat.enabled) return;
-  for (const Int i : state.list) {
-    Cell& cell = state.cells[i];
-    if (!state.matter(i) || cell.heat < parameters.melting_point + parameters.latent_heat) continue;
-    if (cell.solid == 1) {
-      cell.solid = 0;
-      cell.liquid = 1;
-      state.melted_in[i] = state.step;
-      if (parameters.paper_law) {
-        cell.energy = cell.amount;
-        state.ledgers.energy.melted += cell.amount;
-      }
-    } else if (parameters.paper_law && parameters.paper.reheat > 0) {
-      const Int gained = scaled(cell.amount - cell.energy, parameters.paper.reheat);
-      cell.energy += gained;
-      state.ledgers.energy.reheated += gained;
-    }
-  }
-  finish_phase(state, "after melt");
 }
 
 }  // namespace oracle

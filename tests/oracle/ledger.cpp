@@ -62,7 +62,7 @@ std::string ledger_lines(const Ledgers& ledgers) {
   const EnergyLedger& e = ledgers.energy;
   const HeatLedger& h = ledgers.heat;
   return line("ledger mass", {m.start, m.added, m.removed, m.held}) +
-         line("ledger energy", {e.start, e.melted, e.added, e.removed, e.reheated, e.accelerated,
+         line("ledger energy", {e.start, e.melted, e.frozen, e.added, e.removed, e.reheated, e.accelerated,
                                 e.dissipated, e.capped, e.held}) +
          line("ledger heat", {h.start, h.conducted, h.walls, h.convected, h.radiated, h.warmed, h.cooled,
                               h.added, h.removed, h.rounded, h.held});
@@ -78,6 +78,11 @@ std::string pairs_line(const PairCounts& counts) {
 
 std::string pieces_line(const PieceCounts& counts) {
   return line("pieces", {counts.falls, counts.wades, counts.floats});
+}
+
+std::string freeze_line(const FreezeCounts& counts) {
+  return line("freeze",
+              {counts.frozen, counts.set, counts.kept, counts.hung, counts.not_back, counts.melted_again});
 }
 
 Sum mass_held(const State& state) { return held_by(state).mass; }

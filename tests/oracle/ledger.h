@@ -14,10 +14,10 @@ struct MassLedger {
 };
 
 struct EnergyLedger {
-  Sum start = 0, melted = 0, added = 0, removed = 0, reheated = 0;
+  Sum start = 0, melted = 0, frozen = 0, added = 0, removed = 0, reheated = 0;
   Sum accelerated = 0, dissipated = 0, capped = 0, held = 0;
   bool balances() const {
-    return start + melted + added - removed + reheated + accelerated - dissipated - capped == held;
+    return start + melted - frozen + added - removed + reheated + accelerated - dissipated - capped == held;
   }
 };
 
@@ -54,12 +54,19 @@ struct PieceCounts {
   Sum falls = 0, wades = 0, floats = 0;
 };
 
+// Counts the cells that froze, those that were set, the pairs of cells or the cells that would give or fall
+// if they were not set, the pairs that would flow back, and frozen cells that melted (section 7).
+struct FreezeCounts {
+  Sum frozen = 0, set = 0, kept = 0, hung = 0, not_back = 0, melted_again = 0;
+};
+
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
 std::string counters_line(const Counters& counters);
 std::string pairs_line(const PairCounts& counts);
 std::string pieces_line(const PieceCounts& counts);
+std::string freeze_line(const FreezeCounts& counts);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

@@ -143,6 +143,8 @@ Heat read_heat(const Json& json, Int ny) {
     heat.air_exchange = integer(json, "air_exchange", 0, 43690);
     heat.air_temperature = integers(member(json, "air_temperature"), "air_temperature", 0, 65535);
     require(static_cast<Int>(heat.air_temperature.size()) == ny, "air_temperature has not ny numbers");
+    heat.air_glow = integer(json, "air_glow", 0, 10922);
+    heat.air_sky = integer(json, "air_sky", 0, 65535);
   }
   return heat;
 }
@@ -211,6 +213,7 @@ Parameters read_parameters(const std::string& path) {
   p.seed = read_seed(member(json, "seed"));
   p.melting_point = integer(member(json, "material"), "melting_point", 0, 65535);
   p.latent_heat = integer(member(json, "material"), "latent_heat", 0, 65535 - p.melting_point);
+  p.freezing_point = integer(member(json, "material"), "freezing_point", 0, p.melting_point);
   p.pieces = read_pieces(member(json, "pieces"));
   p.heat = read_heat(member(json, "heat"), p.grid[1]);
   p.vents = read_regions(member(json, "vents"), true);

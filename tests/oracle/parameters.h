@@ -49,6 +49,7 @@ struct Heat {
   bool air = false;
   Int air_exchange = 0;
   std::vector<Int> air_temperature;
+  Int air_glow = 0, air_sky = 0;
 };
 
 struct PiecesFall {
@@ -89,6 +90,7 @@ struct Parameters {
   Int step = 0;
   std::uint64_t seed = 0;
   Int melting_point = 0, latent_heat = 0;
+  Int freezing_point = 0;  // 0: nothing freezes
   PiecesFall pieces;
   Heat heat;
   std::vector<Region> vents, drains;

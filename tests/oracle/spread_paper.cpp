@@ -67,6 +67,10 @@ void give(State& state, const RandomBytes& random, Int i) {
   const Place at = state.place(i);
   const Int pattern = pattern_of(state, random, cell, at);
   if (pattern == 0) return;
+  if (state.is_set(i)) {
+    ++state.freeze_counts.kept;
+    return;
+  }
   const Int cap = limits_of(paper).cap;
   for (Int d = 0; d < paper.neighbours; ++d) {
     if ((pattern >> d) % 2 == 0) continue;

@@ -74,7 +74,8 @@ Int mobility_of_pair(const Stages& stages, const Run& giver, const Run& taker) {
   return smaller(m, limit << (8 + stages.bits));
 }
 
-// Adds the pair of the run cell i and its neighbour in a direction, if i gives and not both are shut.
+// Adds the pair of the run cell i and its neighbour in a direction, if i gives, is not set and not both are
+// shut.
 void find_pair(State& state, Int i, const Direction& direction, std::vector<Pair>& pairs) {
   const Place at = state.place(i);
   if (!is_open(state, at, direction)) return;
@@ -87,6 +88,10 @@ void find_pair(State& state, Int i, const Direction& direction, std::vector<Pair
   if (drop <= 0 || drop <= threshold) return;
   if (giver.shut && taker.shut) {
     ++state.pair_counts.shut;
+    return;
+  }
+  if (state.is_set(i)) {
+    ++state.freeze_counts.kept;
     return;
   }
 
@@ -142,6 +147,11 @@ void flow_relaxed(State& state, const std::vector<Pair>& pairs) {
     const Int R = rounding(state, pair.direction.axis, state.place(pair.i).y);
     const Int drop = pair.between_runs ? drops[n] : 64 * pair.drop;
     const Int w = wanted_flow_relaxed(pair, state.stages.bits, larger(drop, -drop), R);
+    if (drop < 0 && state.is_set(pair.j)) {
+      ++state.pair_counts.relaxed;
+      if (w > 0) ++state.freeze_counts.not_back;
+      continue;
+    }
     const Int back = drop < 0 ? move(state, pair, pair.j, pair.i, w) : 0;
     if (drop > 0) move(state, pair, pair.i, pair.j, w);
     if (pair.between_runs) ++state.pair_counts.relaxed;

@@ -35,7 +35,8 @@ State read_state(const std::string& folder) {
   }
 
   state.irradiance.resize(count);
-  state.melted_in.resize(count, -1);
+  for (std::vector<Int>* steps : {&state.melted_in, &state.frozen_in, &state.set_in})
+    steps->resize(count, -1);
   state.runs.resize(count);
   state.exchanges.resize(count);
   state.listed.resize(count);

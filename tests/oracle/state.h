@@ -60,13 +60,15 @@ struct State {
   Parameters parameters;
   std::vector<Cell> cells;
   std::vector<Int> irradiance;  // section 5, kept between its steps
-  std::vector<Int> melted_in;   // section 7: the step in which the cell's solid melted, -1: in none
+  // Section 7: the last step in which the cell's solid melted, its liquid froze, it was set; -1: in none.
+  std::vector<Int> melted_in, frozen_in, set_in;
   std::vector<Run> runs;
   std::vector<Exchange> exchanges;
   Ledgers ledgers;
   Counters counters;
   PairCounts pair_counts;
   PieceCounts piece_counts;
+  FreezeCounts freeze_counts;
 
   // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
@@ -83,10 +85,13 @@ struct State {
   // The border is inert (section 1): blocked, never air.
   bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
   bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
-  // Under the paper law a side that melted in this very step still counts (section 8).
+  bool is_set(Int i) const { return set_in[i] == step; }
+  // Under the paper law sides date from before melt (section 8): a side that melted in this very step still
+  // counts, and one that froze in it does not yet.
   bool wall(Int x, Int y, Int z) const {
-    if (blocked(x, y, z)) return true;
-    return parameters.paper_law && melted_in[index(x, y, z)] == step;
+    if (!inside(x, y, z) || !parameters.paper_law) return blocked(x, y, z);
+    const Int i = index(x, y, z);
+    return melted_in[i] == step || (blocked(i) && frozen_in[i] != step);
   }
   bool beside_wall(Place p) const {
     return wall(p.x + 1, p.y, p.z) || wall(p.x - 1, p.y, p.z) || wall(p.x, p.y, p.z + 1) ||
