@@ -6,6 +6,7 @@
 #include "accuracy/case.h"
 #include "accuracy/cavities.h"
 #include "accuracy/convergence.h"
+#include "accuracy/freezing.h"
 #include "accuracy/heat.h"
 #include "accuracy/level.h"
 #include "accuracy/light.h"
@@ -57,6 +58,24 @@ Cases heat() {
        "As above, with a solid below its melting point, long enough that its far end stays cold. "
        "With --quick the front goes 32 cells.",
        measure_stefan_two_phase},
+      {"freezing", "Heat", "Stefan problems backwards: liquid freezes under a cold wall",
+       "A column of liquid at its melting point, or warmer, under an isothermal wall. The front is the "
+       "latent "
+       "heat given off. The mask of solids is looked at, too. "
+       "With --quick the warmer one goes 24 cells, not 64.",
+       measure_freezing},
+      {"crust", "Heat", "A crust on a pool grows as the square root of time",
+       "Cold air over a pool at its melting point, St 0.2. The film of air counts as so much more of the "
+       "crust, "
+       "its conductance over that of the crust.",
+       measure_crust},
+      {"glow", "Heat", "A cell alone glows with the fourth power of its temperature",
+       "A cell with three exposed axes loses heat to a sky at absolute zero.", measure_glow},
+      {"cooling_flow", "Heat", "A dam breaks under cold air, and stops by itself",
+       "A plain program in one dimension lets a sheet run, cool and stop where it is colder than it freezes. "
+       "It "
+       "has one temperature over the depth.",
+       measure_cooling_flow},
       {"ball_in_mould", "Heat", "A ball melts in a hot mould that it fills",
        "A plain program conducts heat through 160 shells, St 1. What melts has no room to move. "
        "With --quick the ball of radius 20 is left out under the viscous law.",
