@@ -175,10 +175,9 @@ Cases slopes() {
        measure_thermal_film},
       {"cylinder_film", "Slopes", "A film runs down the side of a cylinder",
        "The film is fed at the top of a horizontal cylinder. Nusselt's film on the slope of each place says "
-       "how thick it is across the bed, at so many degrees from the top. An inert shape is of whole cells, "
-       "so "
-       "its film runs on stairs. Steeper than 45 degrees liquid falls beside the bed, without friction. Both "
-       "are reported.",
+       "how thick it is across the bed, at so many degrees from the top. Steeper than 45 degrees liquid "
+       "falls "
+       "beside the bed, without friction: this is reported.",
        measure_cylinder_film},
       {"stairs", "Slopes", "The same on steps of whole cells",
        "A bed that cannot be told from stairs holds liquid back. Reported. "

@@ -122,7 +122,7 @@ Outcome measure_cylinder_film(const Conditions& conditions) {
                 .value = *found,
                 .exact = 1,
                 .speed = trial.speed()};
-        if (degrees <= kGentle && bed != Bed::shape) row.gate = 0.1;
+        if (degrees <= kGentle) row.gate = 0.1;
         curve.points.push_back({1. * degrees, row.value});
         outcome.rows.push_back(std::move(row));
       }

@@ -61,6 +61,9 @@ Beginning begin_from(const Common& common, const std::string& from) {
 }
 
 void check_steps(const scene::Scene& scene, std::uint32_t steps) {
+  if (steps > UINT32_MAX - scene.first_step)
+    throw UsageError(fmt::format("error: {} steps from step {}: step numbers end at {}", steps,
+                                 scene.first_step, UINT32_MAX));
   if (steps == 0 || !scene.mid_run || steps >= scene.mid_run->steps_done) return;
   throw UsageError(fmt::format("error: step {}: the checkpoint of {} is at step {} already", steps,
                                scene.name, scene.mid_run->steps_done));

@@ -21,7 +21,8 @@ Beginning begin_from(const Common& common, const std::string& from);
 std::uint32_t steps_of(const std::string& from);
 bool names_a_file(const std::string& from);
 
-// Refuses --steps STEPS if the scene is a checkpoint beyond them. 0 means that no steps were given.
+// Refuses --steps STEPS if the scene is a checkpoint beyond them, or if they need a step number beyond the
+// last one. 0 means that no steps were given.
 void check_steps(const scene::Scene& scene, std::uint32_t steps);
 
 }  // namespace voxmelt::app

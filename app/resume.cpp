@@ -144,7 +144,7 @@ void go_on(Resumption& run, const StepsWanted& steps) {
   if (last < done)
     throw UsageError(fmt::format(
         "--steps {}: error: step {} of this run is done already; +N means further ones", steps.count, done));
-  if (last > UINT32_MAX)
+  if (last > UINT32_MAX - run.scene.first_step)
     throw UsageError(fmt::format("--steps +{}: error: step numbers end at {}", steps.count, UINT32_MAX));
   run.record.steps = static_cast<std::uint32_t>(last);
   std::vector<std::uint32_t>& frames = run.record.frame_steps;

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/beginning.h"
 #include "app/checkpoints.h"
 #include "app/commands.h"
 #include "app/film.h"
@@ -100,6 +101,7 @@ PreparedRun prepare(const RunOptions& options) {
     throw UsageError(fmt::format(
         "--steps {}: error: +N means steps further than the run of --resume has made", *options.steps));
   record.steps = steps.count;
+  check_steps(scene, record.steps);
   record.frame_every = options.frame_every.value_or(scene.frame_every);
   record.size = options.size.value_or("");
   if (options.size) set_size(scene.camera, *options.size);

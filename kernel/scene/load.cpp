@@ -135,7 +135,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   std::filesystem::path fields;
   if (start) {
     fields = start->file("fields");
-    scene.first_step = start->integer("step", 0, kMostSteps / 2, 0);
+    scene.first_step = start->integer("step", 0, kMostSteps, 0);
     start->finish();
   }
   root.finish();

@@ -294,6 +294,28 @@ class BadInput(unittest.TestCase):
         self.assertIn("start.step = 3 is no step of visibility", warned.stderr)
         self.assertEqual(voxmelt("digest", "on.toml", "--steps", "0", cwd=self.folder).stderr, "")
 
+    def test_a_run_goes_on_to_the_last_step_number(self):
+        """2^32 - 1. Nothing is run, and nothing written, that would need a larger one."""
+        write(self.folder, SMALL)
+        self.assertEqual(voxmelt("export", "scene.toml", "--out", "start", cwd=self.folder).returncode, 0)
+        for first in (2**31 - 8, 2**32 - 16):  # steps of visibility
+            write(self.folder, SMALL + f'[start]\nfields = "start"\nstep = {first}\n', "on.toml")
+            self.assertEqual(voxmelt("export", "on.toml", "--steps", "8", "--out", "late", cwd=self.folder).returncode, 0)
+            whole = voxmelt("digest", "on.toml", "--steps", "15", cwd=self.folder)
+            rest = voxmelt("digest", "late/scene.toml", "--steps", "7", cwd=self.folder)
+            self.assertEqual((whole.returncode, rest.returncode), (0, 0), whole.stderr + rest.stderr)
+            self.assertEqual(whole.stdout.split()[2:], rest.stdout.split()[2:])
+        end = "16 steps from step 4294967280: step numbers end at 4294967295"
+        picture = ("render", "on.toml", "--out", "late.png")
+        for command in (("digest", "on.toml"), ("export", "on.toml", "--out", "later"), ("run", "on.toml", "--out", "later"), picture):
+            self.refused([*command, "--steps", "16"], end, 2)
+        self.refused(["run", "on.toml", "--set", "run.steps=1000", "--out", "later"], "1000 steps from step 4294967280: step numbers end", 2)
+        self.assertFalse((self.folder / "later").exists() or (self.folder / "late.png").exists())
+        frames = ("run", "on.toml", "--frame-every", "0", "--steps", "13", "--out", "later")
+        self.assertEqual(voxmelt(*frames, cwd=self.folder).returncode, 0)
+        self.refused(["run", "--resume", "later", "--steps", "+3"], "step numbers end at 4294967295", 2)
+        self.assertEqual(voxmelt("run", "--resume", "later", "--steps", "+2", cwd=self.folder).returncode, 0)
+
     def test_two_runs_do_not_share_a_folder(self):
         write(self.folder, SMALL)
         first = subprocess.Popen([PROGRAM, "run", "scene.toml", "--steps", "4000000", "--quiet"], cwd=self.folder)

@@ -4,7 +4,7 @@ import math
 from foreign_sources import KEYS_OF
 
 TINY = 1e-9  # the lowest value of a range that leaves out 0
-LAST_STEP, LAST_START = 2**32 - 1, 2**31 - 1
+LAST_STEP = 2**32 - 1
 
 
 class Key:
@@ -58,7 +58,7 @@ KEYS = {
     "pieces.fall": Choice(False, True),
     "pieces.in_liquid": Key(1, 1024, 1, 5, 2, 3, 1023),
     "pieces.density": Key(1 / 65536, 1, 0.2, 1.0, 65535 / 65536, 0.5),
-    "start.step": Key(0, LAST_START, 0, 2048, *range(LAST_START - 21, LAST_START, 3), 2**16 - 9, 2**16 - 1, 2**16, 2**24 - 5),
+    "start.step": Key(0, LAST_STEP, 0, 2048, *range(2**31 - 22, 2**31 - 1, 3), LAST_STEP - 20, LAST_STEP - 1, 2**16 - 9, 2**16 - 1, 2**16, 2**24 - 5),
     "heat.neighbours": Choice(6, 18, 26),
     "heat.gamma": Key(0, 0.5236, 0.02, 0.5, math.pi / 65536),
     "heat.convection": Key(0, 0.5, 0.01, 0.4, 1 / 65536),

@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
-from foreign_keys import ENDS, uses
+from foreign_keys import ENDS, LAST_STEP, uses
 from foreign_scenes import write_scene
 from foreign_sources import KEYS_OF
 
@@ -138,6 +138,8 @@ def run_scene(voxmelt, oracle, names, seed, folder):
     scene = write_scene(seed, folder)
     work = math.prod(scene["grid"]["size"]) * most_substeps(scene)
     lengths = [1, *(steps for steps in (7, 20) if steps * work <= MOST_WORK)]
+    last = LAST_STEP - scene.get("start", {}).get("step", 0)
+    lengths = [steps for steps in lengths if steps <= last] or [0]  # step numbers have an end
     start, end = folder / "start", folder / "end"
     output(voxmelt, "export", folder / "scene.toml", "--steps", 0, "--out", start, "--quiet")
     for steps in lengths:

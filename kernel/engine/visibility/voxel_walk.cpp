@@ -68,6 +68,16 @@ unsigned free_faces(const state::Volume& volume, rule::SourceKind kind, const ru
   return faces;
 }
 
+template <class Visit>
+void for_each_solid(const state::Volume& volume, int z, Visit visit) {
+  for (int y = 0; y < volume.grid.y; ++y) {
+    const auto solid = volume.solid.row(y, z);
+    for (int w = 0; w < std::ssize(solid); ++w)
+      for (std::uint64_t bits = solid[w]; bits != 0; bits &= bits - 1)
+        visit(64 * w + std::countr_zero(bits), y, z);
+  }
+}
+
 }  // namespace
 
 std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const rule::Heat& heat,
@@ -92,21 +102,13 @@ std::int64_t VoxelWalkProvider::irradiance(const state::Volume& volume, const ru
       cell = static_cast<std::uint16_t>(std::min<std::uint64_t>(sum, rule::kIrradianceMax));
       if (sum > rule::kIrradianceMax) cuts.fetch_add(1, std::memory_order_relaxed);
     };
-    workers_.run(g.z, [&](int z) {
-      for (int y = 0; y < g.y; ++y) {
-        const auto solid = volume.solid.row(y, z);
-        for (int w = 0; w < std::ssize(solid); ++w)
-          for (std::uint64_t bits = solid[w]; bits != 0; bits &= bits - 1)
-            light(64 * w + std::countr_zero(bits), y, z);
-      }
-    });
+    workers_.run(g.z, [&](int z) { for_each_solid(volume, z, light); });
   }
   workers_.run(g.z, [&](int z) {
-    for (int y = 0; y < g.y; ++y)
-      for (int x = 0; x < g.x; ++x) {
-        const state::Slot at = volume.at(x, y, z);
-        if (result[at] > 0) result[at] = rule::irradiance_of_amount(result[at], volume.amount[at]);
-      }
+    for_each_solid(volume, z, [&](int x, int y, int) {
+      const state::Slot at = volume.at(x, y, z);
+      if (result[at] > 0) result[at] = rule::irradiance_of_amount(result[at], volume.amount[at]);
+    });
   });
   return cuts;
 }

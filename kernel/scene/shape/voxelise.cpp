@@ -92,7 +92,7 @@ class Voxeliser {
       const int highest = *std::max_element(first, first + grid.x);
       for (int y = 0; y < grid.y; ++y) {
         if (y >= highest && !touched_[row_of(y, z)]) continue;
-        for (int x = 0; x < grid.x; ++x) decide(x, y, z, y < first[x]);
+        for (int x = 0; x < grid.x; ++x) decide(x, y, z, first[x]);
       }
       for (int x = 0; x < grid.x; ++x) {
         if (first[x] == 0) continue;
@@ -146,22 +146,40 @@ class Voxeliser {
     volume_.heat[cell] = to_temperature(entry.temperature);
   }
 
-  void decide(int x, int y, int z, bool ground) {
+  void decide(int x, int y, int z, int ground) {
     const state::Slot cell = volume_.at(x, y, z);
     rule::Amount& amount = volume_.amount[cell];
-    const bool shaped = inert_[cell] >= kLeastInert, inert = ground || shaped;
+    const bool buried = y < ground, shaped = is_shape(x, y, z), inert = buried || shaped;
     const bool solid = !inert && solid_[cell] >= kLeastSolid;
-    if (inert) amount = rule::kBedHalf;
     if (solid) {
       amount = static_cast<rule::Amount>(solid_[cell] * kAmountPerSample);
       volume_.heat[cell] = solid_temperature_[cell];
     }
     const bool liquid = !inert && !solid && amount > 0;
     if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
-    if (!liquid && !solid) write(volume_.heat[cell], wall_at(cell, shaped, ground));
+    if (!liquid && !solid) write(volume_.heat[cell], wall_at(cell, shaped, buried));
+    if (inert) amount = bed(buried ? 0 : rise_of_shape(x, y, z, ground), volume_.heat[cell] > 0 ? 1 : 0);
     if (inert) volume_.inert.set(x, y, z, true);
     if (solid) volume_.solid.set(x, y, z, true);
     if (liquid) volume_.liquid.set(x, y, z, true);
+  }
+
+  int samples_of_shape(int x, int y, int z) const {
+    return y >= 0 && y < volume_.grid.y ? inert_[volume_.at(x, y, z)] : 0;
+  }
+  bool is_shape(int x, int y, int z) const { return samples_of_shape(x, y, z) >= kLeastInert; }
+
+  // Returns how far the surface of an inert shape lies above the upper face of a cell, in cells. The shape
+  // may cover a part of the cell's width alone, as at a rim. That part is what it covers of the cell below,
+  // unless the shape is cut there from beneath: then the samples do not say where the surface lies.
+  double rise_of_shape(int x, int y, int z, int ground) const {
+    if (is_shape(x, y + 1, z)) return 0;
+    const bool stands = y == ground;  // on the ground, or on the border
+    const int below = stands ? kSamplesPerCell : samples_of_shape(x, y - 1, z);
+    if (below < kLeastInert) return 0;
+    const bool cut = below < kSamplesPerCell && y - 1 != ground && !is_shape(x, y - 2, z);
+    const int covered = samples_of_shape(x, y, z) + samples_of_shape(x, y + 1, z);
+    return cut ? 0 : 1.0 * covered / below - 1;
   }
 
   rule::Temperature wall_at(state::Slot cell, bool shaped, bool ground) const {

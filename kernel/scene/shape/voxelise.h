@@ -35,7 +35,8 @@ struct Contents {
 
 // Returns the cells. They are solid from coverage 1/16 on (amount = coverage), and inert from 1/2 on. Inert
 // wins over solid, and solid over liquid. The top inert cell of a terrain column holds the height's fraction:
-// kBedHalf + (h - round(h)) x kOne. An inert shape keeps its temperature inside the ground.
+// kBedHalf + (h - round(h)) x kOne, and the top cell of an inert shape what its coverage says. An inert shape
+// keeps its temperature inside the ground.
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene
