@@ -58,7 +58,8 @@ height = 240
 VISCOUS = "[flow.viscous]\nkappa = 0.1\n"
 # What a run costs, and who runs it: not what it gives.
 COSTS = ("seconds", "memory")
-WHO = ("implementation", "implementation_reason", "threads", "visibility")
+TRIED = ("implementation", "implementation_reason")  # by a trial; a run that died early makes another one
+WHO = ("threads", "visibility")
 
 
 def outcome(folder, changed):
@@ -66,7 +67,7 @@ def outcome(folder, changed):
     files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*")
              if p.is_file() and p.name != "last.vxc"}  # it says who ran, and for how long
     report = json.loads(files.pop("report.json"))
-    for key in COSTS + (WHO if changed else ()):
+    for key in COSTS + TRIED + (WHO if changed else ()):
         del report[key]
     report.get("visibility", {}).pop("rays_cast", None)  # a resumed run casts anew what was known
     return files, report
