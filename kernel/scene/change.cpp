@@ -65,6 +65,8 @@ void check_changeable(const Scene& scene, const std::string& key, const Place& p
                                fmt::join(keys, ", ")));
   if (key.starts_with("heat.") && !scene.parameters.heat.enabled)
     fail_at(place, fmt::format("{}: the scene has no [heat]: without it nothing is heated", key));
+  if (key.starts_with("pieces.") && !scene.parameters.pieces.fall)
+    fail_at(place, fmt::format("{}: the scene has no [pieces] that fall", key));
 }
 
 }  // namespace
@@ -83,6 +85,8 @@ const std::vector<std::string>& changeable_keys() {
                                              "material.melting_point",
                                              "material.latent_heat",
                                              "material.freezing_point",
+                                             "pieces.in_liquid",
+                                             "pieces.density",
                                              "flow.fall.factor",
                                              "flow.fall.wall_factor",
                                              "flow.fall.minimum",
@@ -118,6 +122,7 @@ void change_key(Scene& scene, const std::string& key, double value, const std::s
   std::vector<std::string> warnings;
   rule::Parameters parameters = scene.parameters;
   parameters.material = read_material(root);
+  parameters.pieces = read_pieces(root);
   parameters.heat = read_heat(root, height_of(document), warnings);
   parameters.flow = read_flow(root, warnings);
 

@@ -218,6 +218,7 @@ const std::vector<Other> kPaper = {{"heat.gamma", 0.1},
 const std::vector<Other> kOnSolid = {{"flow.paper.alpha_solid", 0.2}};
 const std::vector<Other> kCooling = {
     {"heat.air.glow", 0.05}, {"heat.air.sky", 0.4}, {"material.freezing_point", 0.44}};
+const std::vector<Other> kFloating = {{"pieces.in_liquid", 5}, {"pieces.density", 0.3}};
 const std::vector<Other> kTubes = {{"flow.viscous.stiffness", 1}};
 const std::vector<Other> kViscous = {
     {"heat.neighbours", 6},          {"flow.fall.factor", 0.5},        {"flow.viscous.kappa", 0.5},
@@ -283,6 +284,24 @@ glow = 0.01
 sky = 0.1
 )");
   expect_a_set_value_acts_as_said(cooling, kCooling, folder);
+  const auto floating = write("floating.toml", R"(
+[grid]
+size = [16, 40, 16]
+[pieces]
+in_liquid = 2
+density = 0.9
+[[liquid]]
+shape = "box"
+size = [16, 24, 16]
+at = [8, 12, 8]
+[[solid]]
+shape = "box"
+size = [6, 6, 6]
+at = [8, 27, 8]
+[flow]
+law = "viscous"
+)");
+  expect_a_set_value_acts_as_said(floating, kFloating, folder);
 }
 TEST_F(Running, ASetValueGivesTheBitsOfASceneThatBeginsWithItViscous) {
   expect_a_set_value_acts_as_said(scene("proving_ground_viscous"), kViscous, folder);
@@ -311,7 +330,7 @@ TEST_F(Running, ASetValueInTheMiddleOfARun) {
 
 TEST_F(Running, EveryChangeableKeyIsTestedAndInTheDocs) {
   std::map<std::string, int> tested;
-  for (const auto* others : {&kPaper, &kOnSolid, &kCooling, &kViscous, &kTubes})
+  for (const auto* others : {&kPaper, &kOnSolid, &kCooling, &kFloating, &kViscous, &kTubes})
     for (const Other& other : *others) ++tested[other.key];
   std::ifstream page(std::filesystem::path(VOXMELT_SCENES_FOLDER).parent_path() / "docs/library.md");
   std::stringstream text;
@@ -340,6 +359,7 @@ TEST_F(Running, WhatCannotBeSetIsNamed) {
       0u);
   EXPECT_NE(unknown.find("flow.viscous.kappa"), std::string::npos) << "it names the list";
   EXPECT_NE(said("flow.viscous.kappa", 0.1).find("is not used by law = \"paper\""), std::string::npos);
+  EXPECT_NE(said("pieces.density", 0.5).find("no [pieces]"), std::string::npos);
   EXPECT_NE(said("heat.air.top", 0.1).find("heat.air.exchange"), std::string::npos) << "there is no air";
   EXPECT_NE(said("flow.fall.factor", std::numeric_limits<double>::quiet_NaN()), "nothing");
   Simulation cold(
