@@ -2,6 +2,7 @@
 // of its feet are wet. The pieces are found here by a plain search.
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <array>
 #include <cstddef>
 #include <cstdint>
