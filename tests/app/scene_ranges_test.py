@@ -35,6 +35,7 @@ size = [2, 2, 2]
 at = [2, 2, 2]
 """
 WITH = {"material.latent_heat": ["material.melting_point=0.000001"],  # at most 1 together
+        "material.freezing_point": ["material.melting_point=1"],
         "heat_source.0.radius": ['heat_source.0.kind="sphere"'],
         "flow.viscous": ['flow={law="viscous", viscous={kappa=1}}']}
 NOT_TRIED = {"start.step"}  # needs an export

@@ -56,13 +56,14 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
 
   l.energy.start = 50000000;
   l.energy.melted = 1000000;
+  l.energy.frozen = 20000000;
   l.energy.added = 100000;
   l.energy.removed = 10000;
   l.energy.reheated = 1000;
   l.energy.accelerated = 100;
   l.energy.dissipated = 10;
   l.energy.capped = 1;
-  EXPECT_EQ(l.energy.expected(), 51091089);
+  EXPECT_EQ(l.energy.expected(), 31091089);
 
   l.heat.start = 500000000;
   l.heat.conducted = 10000000;
@@ -81,7 +82,7 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
 LedgerTerms<std::int64_t> some_books() {
   LedgerTerms<std::int64_t> books;
   books.mass = {1, -2};
-  books.energy = {3, 4, 5, 6, 7, 8, std::int64_t{1} << 62};
+  books.energy = {3, 19, 4, 5, 6, 7, 8, std::int64_t{1} << 62};
   books.heat = {-10, 18, 11, 12, 13, 14, 15, 16, -17};
   return books;
 }
@@ -94,6 +95,7 @@ TEST(Ledger, BooksEveryTermInItsPlace) {
   EXPECT_EQ(l.mass.removed, -6);
   EXPECT_EQ(l.energy.start, 9);
   EXPECT_EQ(l.energy.melted, 9);
+  EXPECT_EQ(l.energy.frozen, 57);
   EXPECT_EQ(l.energy.added, 12);
   EXPECT_EQ(l.energy.removed, 15);
   EXPECT_EQ(l.energy.reheated, 18);
@@ -117,7 +119,7 @@ TEST(Ledger, TermsOfManyWorkersAddUp) {
   books.energy.capped = 9;
   for (int i = 0; i < 2; ++i) sum += books;
   EXPECT_EQ(sum.mass, (MassTerms<std::int64_t>{2, -4}));
-  EXPECT_EQ(sum.energy, (EnergyTerms<std::int64_t>{6, 8, 10, 12, 14, 16, 18}));
+  EXPECT_EQ(sum.energy, (EnergyTerms<std::int64_t>{6, 38, 8, 10, 12, 14, 16, 18}));
   EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 36, 22, 24, 26, 28, 30, 32, -34}));
 }
 
@@ -128,7 +130,7 @@ run::Simulation busy(Case which) {
   if (which == Case::paper_printed) p.flow.paper.reading = rule::EnergyReading::printed;
   p.flow.paper.beta = 40000;
   p.flow.paper.reheat = 4000;
-  p.material = {20000, 3000};
+  p.material = {20000, 3000, 18000};
   p.heat.enabled = true;
   p.heat.neighbours = 26;
   p.heat.weight_face = 6000;
@@ -164,7 +166,7 @@ TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
                          h.radiated, h.warmed, h.cooled, h.added, h.removed, h.rounded})
     EXPECT_NE(term, 0);
   const EnergyLedger& e = s.ledger().energy;
-  for (const Sum term : {e.melted, e.added, e.removed, e.reheated})
+  for (const Sum term : {e.melted, e.frozen, e.added, e.removed, e.reheated})
     EXPECT_EQ(term != 0, GetParam() != Case::viscous);
   for (const Sum term : {e.accelerated, e.dissipated}) EXPECT_EQ(term != 0, GetParam() == Case::paper);
   EXPECT_EQ(e.capped != 0, GetParam() == Case::paper_printed) << "by the text nothing needs to be cut";
