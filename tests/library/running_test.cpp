@@ -298,8 +298,6 @@ at = [8, 12, 8]
 shape = "box"
 size = [6, 6, 6]
 at = [8, 27, 8]
-[flow]
-law = "viscous"
 )");
   expect_a_set_value_acts_as_said(floating, kFloating, folder);
 }

@@ -130,7 +130,7 @@ run::Simulation busy(Case which) {
   if (which == Case::paper_printed) p.flow.paper.reading = rule::EnergyReading::printed;
   p.flow.paper.beta = 40000;
   p.flow.paper.reheat = 4000;
-  p.material = {20000, 3000, 18000};
+  p.material = {20000, 3000, 20000};
   p.heat.enabled = true;
   p.heat.neighbours = 26;
   p.heat.weight_face = 6000;

@@ -2,12 +2,12 @@
 // of its feet are wet. The pieces are found here by a plain search.
 #include <gtest/gtest.h>
 
-#include <utility>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/automaton/state/connectivity.h"
