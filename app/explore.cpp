@@ -21,6 +21,7 @@
 #include "app/visibility.h"
 #include "hwmodel/explore/explore_report.h"
 #include "hwmodel/memory/sheet.h"
+#include "hwmodel/pipeline/check/falling.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/streams/memory_streams.h"
 #include "kernel/run/io/output_folder.h"
@@ -107,6 +108,14 @@ class SweepProgress {
   std::chrono::seconds said_{0};
 };
 
+// Tells what the feeds read in the first step, which begins with `start`.
+void ask_of_first_step(explore::Question& question, const state::Volume& start, run::Simulation& ahead) {
+  question.volume = &start;
+  question.falls = hwmodel::cells_that_fall(question.parameters, question.first_step, start).has_value();
+  ahead.begin_step();  // computes the irradiance of the step
+  question.irradiance = ahead.irradiance();
+}
+
 int run_explore(ExploreCommand command) {
   split_sets(command);
   const Common& common = command.common;
@@ -127,9 +136,8 @@ int run_explore(ExploreCommand command) {
   question.grid = ahead.volume().grid;
   require_stages_and_room(question, command.memory);
   question.first_step = ahead.step_number();
-  ahead.begin_step();  // computes the irradiance of the step
-  question.irradiance = ahead.irradiance();
-  question.volume = &ahead.volume();
+  const state::Volume start = ahead.volume();
+  ask_of_first_step(question, start, ahead);
 
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
@@ -150,8 +158,8 @@ int run_explore(ExploreCommand command) {
       print_error("verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(), hw.lanes,
                   hw.cascade);
     }
-    checked.push_back(check(question, swept, point, command.check_steps,
-                            {ahead.volume(), fast, tuning, stop_if_interrupted}));
+    checked.push_back(
+        check(question, swept, point, command.check_steps, {start, fast, tuning, stop_if_interrupted}));
   }
   const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
   print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));

@@ -64,7 +64,7 @@ void print_result(const VerifyCommand& command, const scene::Scene& scene,
   print("{}", hwmodel::table_of(report, design, c));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
-      [](const hwmodel::StageReport& stage) { return phase_of(stage.kind) && stage.cascade == 0; });
+      [](const hwmodel::StageReport& stage) { return is_stage(stage.kind) && stage.cascade == 0; });
   if (report.mismatch == nullptr)
     print(
         "{} cells compared behind {} stages of a time step, {} of the software ({}): no difference; digest "
@@ -175,8 +175,9 @@ int verify_pipeline(VerifyCommand command) {
   hwmodel::VerifyReport report =
       hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
   if (memory.dram) {
+    const state::Volume start = ahead.volume();
     ahead.begin_step();  // computes the irradiance of the step
-    hwmodel::explore::predict_on_memory(report, design, c, memory, ahead.volume(), ahead.irradiance());
+    hwmodel::explore::predict_on_memory(report, design, c, memory, start, ahead.irradiance());
   }
 
   const hwmodel::Verdict verdict = hwmodel::verdict_of(report, job.fault != hwmodel::Fault::none);

@@ -54,12 +54,12 @@ std::int64_t size_channels(const VerifiedStream& stream, const Common& common, c
                            hwmodel::Preset& preset) {
   hwmodel::Configuration& c = preset.configuration;
   const state::Grid grid = stream.volume.grid;
-  explore::TimedRun run{stream.parameters,   grid, c, stream.first_step, stream.steps,
-                        stop_if_interrupted, {},   {}};
+  explore::TimedRun run{
+      stream.parameters, grid, c, stream.first_step, stream.steps, stop_if_interrupted, {}, {}, {}};
   std::optional<explore::SizingMemory> memory;
   std::optional<explore::Held> held;
-  if (preset.caster.dram) {
-    memory = {*preset.caster.dram, preset.caster.clock_mhz};
+  if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
+  if (memory || stream.parameters.pieces.fall) {
     held.emplace(run, hwmodel::design_of(stream.parameters, grid, c), stream.volume,
                  find_implementation(common), stop_if_interrupted);
     held->give_to(run);

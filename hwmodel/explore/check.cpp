@@ -4,10 +4,26 @@
 
 #include "hwmodel/explore/timing.h"
 #include "hwmodel/memory/ratio.h"
+#include "hwmodel/pipeline/check/falling.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/streams/memory_streams.h"
 
 namespace voxmelt::hwmodel::explore {
+
+namespace {
+
+// Returns the cycles of the run while the memory always answers. All steps are taken to be like the first.
+std::int64_t cycles_without_waits(const Question& question, const Configuration& hw, std::uint32_t steps,
+                                  const CheckInput& input) {
+  TimedRun run{question.parameters, question.grid, hw, question.first_step, steps, input.poll, {}, {}, {}};
+  std::optional<FallStream> falls;
+  if (const auto cells = cells_that_fall(question.parameters, question.first_step, input.start))
+    falls.emplace(*cells, design_of(question.parameters, question.grid, hw).shape);
+  if (falls) run.falls = [&](std::uint32_t) { return &*falls; };
+  return timing_of(run, nullptr).cycles;
+}
+
+}  // namespace
 
 double Checked::error() const { return ratio(predicted_on - on_memory, on_memory); }
 
@@ -37,17 +53,8 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   if (!checked.good) checked.difference = text_of(*report.mismatch);
   checked.compared_cells = report.compared_cells;
   checked.on_memory = report.cycles;
-  checked.cycles = question.memory ? timing_of({question.parameters,
-                                                question.grid,
-                                                point.hw,
-                                                question.first_step,
-                                                checked.steps,
-                                                input.poll,
-                                                {},
-                                                {}},
-                                               nullptr)
-                                         .cycles
-                                   : report.cycles;
+  checked.cycles =
+      question.memory ? cycles_without_waits(question, point.hw, checked.steps, input) : report.cycles;
   return checked;
 }
 

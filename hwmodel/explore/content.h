@@ -18,6 +18,8 @@ struct Content {
   // all. They are empty if there are none.
   std::vector<std::int64_t> irradiance_before{}, coded_before{};
 
+  bool falls = false;  // does a piece fall in the first step?
+
   std::vector<std::int32_t> lit_columns{};    // bits of irradiance in each column of the grid
   std::vector<std::int32_t> coded_columns{};  // bursts of the state in each column
 

@@ -90,7 +90,7 @@ void read_stages(scene::Reader& root, Family& f) {
   scene::Reader stages = table_of(root, "stage");
   for (int i = 0; i <= static_cast<int>(StageKind::writer); ++i) {
     const auto kind = static_cast<StageKind>(i);
-    if (!phase_of(kind)) continue;
+    if (!is_stage(kind)) continue;
     scene::Reader table = table_of(stages, std::string(name_of(kind)));
     StageCost& cost = f.stages[kind];
     cost.lane = logic(table);

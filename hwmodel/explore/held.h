@@ -29,6 +29,7 @@ class Held {
   // hw.coded, `stored_` says which tokens are stored before each step, and after the last one.
   std::map<std::uint32_t, IrradianceStream> irradiance_;
   std::map<std::uint32_t, StoredTokens> stored_;
+  std::map<std::uint32_t, FallStream> falls_;  // steps in which something falls
 };
 
 }  // namespace voxmelt::hwmodel::explore

@@ -42,6 +42,7 @@ PartList part_list(const Design& design, const Family& family) {
   PartList list;
   list.design = design;
   list.fed = design.hot() && design.parameters.heat.radiation;
+  list.falls = design.parameters.pieces.fall;
   list.memories = {{}};
   for (const auto& stage : make_step(list.design)) {
     list.stages.push_back(

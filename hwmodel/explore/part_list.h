@@ -24,7 +24,8 @@ struct StagePart {
 struct PartList {
   Design design;
   std::vector<StagePart> stages;
-  bool fed = false;                                                      // takes irradiance
+  bool fed = false;    // takes irradiance
+  bool falls = false;  // has pieces that fall: the first time step takes their bits
   std::shared_ptr<const Content> content = std::make_shared<Content>();  // contents of the first state
 
   // These count the parts of a family for one time step, without its channels and ports.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -48,6 +49,7 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
     train.work.fed_bits +=
         pass.steps *
         (shape.tiled() ? Content::between(content.irradiance_before, first, end) : content.irradiance_bits);
+  if (pass.uses(StageKind::fall, 0)) train.work.fed_bits += FallStream::bits_of_tile(shape);
 }
 
 // Adds the columns of each tile in the order of the stream. Each one is read, and it is written if the tile
@@ -88,15 +90,28 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
   return delays;
 }
 
-// Adds what the feeds fetch: as much as they have used, less what they fetched at the beginning.
+// Adds what a feed fetches: as much as it has used, less what it fetched at the beginning.
+void add_feed(ColumnWork& work, const std::vector<double>& used, std::size_t delay) {
+  constexpr double kFirst = kBurstsAhead;
+  const double all = std::accumulate(used.begin(), used.end(), 0.0);
+  const double begin = std::min(all, kFirst);
+  work.fed_first.push_back(begin);
+  work.fed.resize(std::max(work.fed.size(), used.size() + delay));
+  double left = all - begin;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const double fetched = std::min(left, used[i]);
+    work.fed[i + delay] += fetched;
+    left -= fetched;
+  }
+}
+
+// Adds what the feeds of irradiance fetch.
 void add_feeds(Train& train, const Design& design, const Configuration& c, const Content& content) {
   const Shape& shape = design.shape;
   ColumnWork& work = train.placement.work;
   const std::vector<std::size_t> delays = feed_delays(train, design, c);
-  work.fed.resize(work.columns.size() + delays.back() + 1);
   for (int t = 0; t < std::ssize(delays); ++t) {
     std::vector<double> used;
-    double all = 0;
     for (const Pass& pass : train.list) {
       const int first = shape.first_block(pass.tile);
       for (int z = 0; z < shape.grid.z; ++z)
@@ -104,18 +119,9 @@ void add_feeds(Train& train, const Design& design, const Configuration& c, const
           const std::size_t at = z * shape.grid_blocks() + block;
           const bool works = t < pass.steps;
           used.push_back(works ? ratio(content.lit_columns[at], CodeLayout::kBurstBits) : 0);
-          all += used.back();
         }
     }
-    constexpr double kFirst = kBurstsAhead;
-    const double begin = std::min(all, kFirst);
-    work.fed_first.push_back(begin);
-    double left = all - begin;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      const double fetched = std::min(left, used[i]);
-      work.fed[i + delays[t]] += fetched;
-      left -= fetched;
-    }
+    add_feed(work, used, delays[t]);
   }
 }
 
@@ -124,7 +130,9 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   train.work.cycles = predicted_cycles(design, c, train.list.front(), train.passes);
   train.work.lag = train.work.cycles - c.interval() * train.work.tokens;
   const Shape& shape = design.shape;
-  const bool lit = train.work.fed_bits > 0;
+  const auto falls = std::count_if(train.list.begin(), train.list.end(),
+                                   [](const Pass& pass) { return pass.uses(StageKind::fall, 0); });
+  const bool lit = train.work.fed_bits > falls * FallStream::bits_of_tile(shape);
   if (!c.coded && !shape.tiled() && !lit) return;  // the stream is even
   // The writes lie as many columns behind as the lag has. Those of tiles lie in the other copy, and a plane
   // there is as wide as the grid.
@@ -144,6 +152,8 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   work.column_cycles = static_cast<double>(c.interval() * shape.column());
   work.lag = static_cast<double>(train.work.lag);
   if (lit) add_feeds(train, design, c, content);
+  const double bursts_of_column = ratio(shape.column() * shape.lanes, CodeLayout::kBurstBits);
+  if (falls > 0) add_feed(work, std::vector<double>(work.columns.size(), bursts_of_column), 0);
 }
 
 // Adds all tiles of a pass to the last train, or to new ones.
@@ -175,6 +185,7 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
     Pass pass{.first = first_step + static_cast<std::uint32_t>(done)};
     pass.substeps = substeps == 0 ? c.substeps : substeps;
     pass.count = std::min(pass.substeps, c.substeps);
+    pass.falls = content.falls;
     if (!pass.ends()) {
       add_substeps(trains, design, c, pass, content);
       ++done;
@@ -200,7 +211,7 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
 // Compares two trains in all but the number of their first step.
 bool alike(const Train& a, const Train& b) {
   const auto form = [](const Pass& pass) {
-    return std::tuple(pass.steps, pass.substep, pass.count, pass.substeps, pass.tile);
+    return std::tuple(pass.steps, pass.substep, pass.count, pass.substeps, pass.tile, pass.falls);
   };
   return a.steps == b.steps && std::equal(a.list.begin(), a.list.end(), b.list.begin(), b.list.end(),
                                           [&](const Pass& x, const Pass& y) { return form(x) == form(y); });

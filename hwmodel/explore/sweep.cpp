@@ -26,7 +26,7 @@ struct Fixed {
 Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) {
   const std::int64_t lanes = hw.lanes, steps = hw.cascade, depth = hw.fifo_depth;
   Fixed fixed;
-  fixed.ports = 2 + (parts.fed ? steps : 0);
+  fixed.ports = 2 + (parts.fed ? steps : 0) + (parts.falls ? 1 : 0);
   std::int64_t &lut = fixed.amounts[0], &ff = fixed.amounts[1], &dsp = fixed.amounts[2];
   lut = f.base.lut + steps * parts.lut + fixed.ports * f.port.lut;
   ff = f.base.ff + steps * parts.ff + fixed.ports * f.port.ff;
@@ -42,6 +42,7 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   channel(1, parts.design.cell_bits());
   for (const StagePart& stage : parts.stages) channel(steps, stage.output_bits);
   if (parts.fed) channel(steps, 16);
+  if (parts.falls) channel(1, 1);
   if (hw.coded) {
     lut += 2 * f.coder.lut;
     ff += 2 * f.coder.ff;
@@ -179,6 +180,7 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
   for (const int lanes : axes.lanes) {
     const auto content = std::make_shared<Content>(
         content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume));
+    content->falls = question.falls;
     for (const int substeps : axes.substeps) {
       std::map<int, std::size_t> parts_of;  // keyed by the blocks of a tile
       for (const int cascade : axes.cascade) {

@@ -26,6 +26,7 @@ struct Question {
   Device device;
   std::optional<memory::Parameters> memory;  // none if it always answers
   const Irradiance* irradiance = nullptr;    // at the first step; null if dark
+  bool falls = false;                        // does a piece fall in the first step?
   const state::Volume* volume = nullptr;     // before the first step; if null, hw.coded is not tried
 };
 

@@ -20,16 +20,21 @@ class Delay final : public Stage {
         bits_(make_stage(kind, design)->output_bits()) {}
   int output_bits() const override { return bits_; }  // a channel is as wide as behind the stage itself
   void feed(HeatFifo& feed) override { feed_ = fed_ ? &feed : nullptr; }
+  void feed_falls(FallFifo& feed) override { falls_ = kind() == StageKind::fall ? &feed : nullptr; }
 
  private:
-  bool side_input_ready() override { return feed_ == nullptr || feed_->valid(); }
+  bool side_input_ready() override {
+    return (feed_ == nullptr || feed_->valid()) && (falls_ == nullptr || falls_->valid());
+  }
   void advance(const Cell* in, Cell* /*out*/) override {
     if (in != nullptr && feed_ != nullptr) feed_->get();
+    if (in != nullptr && falls_ != nullptr) falls_->get();
   }
 
   bool fed_;
   int bits_;
   HeatFifo* feed_ = nullptr;
+  FallFifo* falls_ = nullptr;
 };
 
 std::size_t token_at(const CodeLayout& layout, const Place& place) {
@@ -90,18 +95,20 @@ Timing timing_of(const TimedRun& run, StreamMemory* memory) {
   Timing timing;
   Told told(run, pipeline.design());
   if (run.stored) pipeline.plant(&told);
-  for (const Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps)) {
+  for (Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps)) {
+    const std::uint32_t first = train.list.front().first;
+    Fed fed(run.irradiance ? run.irradiance(first) : &dark, run.falls ? run.falls(first) : nullptr);
+    for (Pass& pass : train.list) pass.falls = fed.falls != nullptr;
     if (run.stored) {
       told.begin_train(train);
-      volume = told.volume(train.list.front().first, pipeline.design().shape);
+      volume = told.volume(first, pipeline.design().shape);
     }
     std::size_t at = 0;
     const auto next = [&]() -> std::optional<Pass> {
       if (++at == train.list.size()) return {};
       return train.list[at];
     };
-    const PassEnd end = pipeline.run_train(
-        train.list.front(), next, run.irradiance ? run.irradiance(train.list.front().first) : &dark, volume);
+    const PassEnd end = pipeline.run_train(train.list.front(), next, fed, volume);
     timing.cycles += end.cycles;
     timing.hangs |= end.hangs;
     if (end.hangs) break;
@@ -123,6 +130,7 @@ std::vector<std::string> channel_names(const Design& design, const Configuration
     }
   if (design.hot() && design.parameters.heat.radiation)
     for (int t = 0; t < c.cascade; ++t) names.push_back(step(t) + "feed -> exchange");
+  if (design.parameters.pieces.fall) names.push_back(step(0) + "feed -> fall");
   return names;
 }
 

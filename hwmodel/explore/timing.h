@@ -23,6 +23,8 @@ struct TimedRun {
   // Returns what the feeds read from a step of visibility on, or from the first step. If empty, they read
   // nothing.
   std::function<const IrradianceStream*(std::uint32_t step)> irradiance;
+  // Returns the cells that fall in this step, or null. If empty, none ever falls.
+  std::function<const FallStream*(std::uint32_t step)> falls;
   // Returns which tokens are stored before this step, by column and height, with hw.coded on a memory. If
   // empty, none are.
   std::function<const StoredTokens*(std::uint32_t step)> stored;

@@ -25,7 +25,7 @@ StreamWork work_of(const VerifyReport& report) {
       work.read_bits += stage.moved_bits;
     }
     if (stage.kind == StageKind::writer) work.written_bits += stage.moved_bits;
-    if (stage.kind == StageKind::feed) work.fed_bits += stage.moved_bits;
+    if (is_feed(stage.kind)) work.fed_bits += stage.moved_bits;
   }
   return work;
 }
@@ -50,10 +50,10 @@ class StreamAlone {
     pipeline_.poll(options.steps.poll);
   }
 
-  void run(const std::vector<Pass>& passes, const IrradianceStream* irradiance) {
+  void run(const std::vector<Pass>& passes, const Fed& fed) {
     std::size_t begun = 1;
     const auto next = [&] { return begun < passes.size() ? std::optional(passes[begun++]) : std::nullopt; };
-    cycles_ += pipeline_.run_train(passes.front(), next, irradiance, volume_).cycles;
+    cycles_ += pipeline_.run_train(passes.front(), next, fed, volume_).cycles;
   }
   std::int64_t cycles() const { return cycles_; }  // sum over all trains
 
@@ -124,9 +124,7 @@ class Run {
     steps.visit = [this](const state::Volume& volume, const VerifyReport& done) {
       return visit(volume, done);
     };
-    steps.streamed = [this](const std::vector<Pass>& passes, const IrradianceStream* irradiance) {
-      alone_.run(passes, irradiance);
-    };
+    steps.streamed = [this](const std::vector<Pass>& passes, const Fed& fed) { alone_.run(passes, fed); };
     return steps;
   }
 

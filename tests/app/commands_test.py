@@ -530,6 +530,8 @@ kappa = 20
                 if name.startswith("tile-"):  # in a grid that is cut
                     for key in ("lanes=1", "cascade=1", "tile=16"):
                         command += ["--set", "hw." + key]
+                if name.startswith(("fall-", "feed-falls-")):
+                    command += ["--set", "pieces.fall=true"]
                 if name.startswith("code-"):
                     command += ["--set", "hw.coded=1"]
                 result = voxmelt(*command, "--report", "p.json", cwd=self.folder)

@@ -22,7 +22,7 @@ Checker::Checker(StreamMachine& machine)
   int cascade = -1;
   std::size_t stage = 0;
   for (const ChannelReport& report : machine.channels()) {
-    if (report.producer == StageKind::feed) continue;
+    if (is_feed(report.producer)) continue;
     Channel channel{report.name, report.producer, report.cascade, 0, false, 0, 0, {}, {}, SIZE_MAX, {}, {}};
     if (report.producer != StageKind::reader) {
       stage = report.cascade == cascade ? stage + 1 : 0;

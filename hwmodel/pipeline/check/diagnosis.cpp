@@ -18,7 +18,7 @@ Mismatch hang_of(const StreamMachine& machine, const Pass& first, std::int64_t c
   std::size_t last = 0;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const ChannelReport& channel = channels[i];
-    const bool feed = channel.producer == StageKind::feed;
+    const bool feed = is_feed(channel.producer);
     if (!feed) last = i;
     if (!feed && channel.count == channel.depth) last_full = i;
     std::string& list = channel.count == channel.depth ? full : empty;
@@ -49,7 +49,7 @@ Mismatch cycles_of(const StreamMachine& machine, std::uint32_t first_step, std::
                    std::int64_t cycles) {
   std::string waited;
   for (const StageReport& stage : machine.stages())
-    if (stage.kind != StageKind::feed && stage.cycles.starved + stage.cycles.blocked > 0)
+    if (!is_feed(stage.kind) && stage.cycles.starved + stage.cycles.blocked > 0)
       waited += (waited.empty() ? "" : ", ") + std::string(name_of(stage.kind)) + " of time step " +
                 std::to_string(stage.cascade);
   return {.kind = Mismatch::Kind::cycles,

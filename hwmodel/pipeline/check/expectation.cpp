@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "hwmodel/pipeline/check/falling.h"
+
 namespace voxmelt::hwmodel {
 
 Expectation::Expectation(const rule::Parameters& parameters, const state::Volume& start,
@@ -20,9 +22,15 @@ Expectation::Expectation(const rule::Parameters& parameters, const state::Volume
 
 void Expectation::begin_step() {
   if (begun_) return;
+  if (parameters_.pieces.fall) unfallen_ = std::make_shared<const state::Volume>(reference_.volume());
   reference_.begin_step();
   fast_.begin_step();
   begun_ = true;
+}
+
+std::optional<state::BitPlane> Expectation::falling() const {
+  if (unfallen_ == nullptr) return {};
+  return cells_that_fall(parameters_, step_number(), *unfallen_);
 }
 
 Expectation::Step Expectation::step(bool keep) {
@@ -30,6 +38,7 @@ Expectation::Step Expectation::step(bool keep) {
   around_ = nullptr;
   Step result;
   Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
+  if (keep && unfallen_ != nullptr) result.stages.push_back({unfallen_, before, {}});  // behind `fall`
   for (const step::Phase phase : reference_.phases()) {
     const bool staged =
         std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Expectation {
   const state::Volume& volume() const { return reference_.volume(); }
   const step::Irradiance* irradiance() const { return reference_.irradiance(); }
   std::uint32_t step_number() const { return reference_.step_number(); }
+  // Returns the cells that fall in the step that has begun, if any does.
+  std::optional<state::BitPlane> falling() const;
   int substeps() const { return reference_.substeps(); }  // sub-steps of the latest step that has begun
   // Counts the cells in which `fast` was compared with the reference.
   std::int64_t compared_cells() const { return compared_cells_; }
@@ -68,6 +71,7 @@ class Expectation {
   // under the viscous law, before the spread. `shown_` has the runs of the present sub-step.
   std::shared_ptr<const Surroundings> around_;
   std::shared_ptr<const ShownRuns> shown_;
+  std::shared_ptr<const state::Volume> unfallen_;  // with pieces: the state before they fall
   bool begun_ = false;
   std::int64_t compared_cells_ = 0;
 };

@@ -15,6 +15,7 @@
 #include "hwmodel/pipeline/check/checker.h"
 #include "hwmodel/pipeline/check/column_checker.h"
 #include "hwmodel/pipeline/check/diagnosis.h"
+#include "hwmodel/pipeline/check/falling.h"
 #include "hwmodel/pipeline/check/feed_checker.h"
 #include "hwmodel/pipeline/faults/planted_faults.h"
 #include "hwmodel/pipeline/faults/planted_stages.h"
@@ -23,7 +24,6 @@
 #include "hwmodel/pipeline/time/prediction.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/automaton/state/ledger.h"
-#include "kernel/engine/scalar/pieces.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -58,6 +58,7 @@ class Lockstep::Run {
     if (pipeline_ != nullptr && options.fault != Fault::none) planted_.emplace(plan_, *pipeline_);
     machine_.watch(&checker_);
     machine_.watch_feeds(&feed_checker_);
+    machine_.watch_falls(&feed_checker_);
     machine_.watch_columns(&column_checker_);
     machine_.poll(options.poll);
     if (options.waves) {
@@ -111,9 +112,9 @@ class Lockstep::Run {
       report_.replay_step = step;
     }
     software_.begin_step();
-    const rule::Pieces& pieces = machine_.design().parameters.pieces;
-    if (pieces.fall) scalar::let_pieces_fall(pieces, step, memory_);  // by the host, before the pass
-    Pass pass{.first = step, .substeps = software_.substeps()};
+    falling_ = software_.falling();
+    find_falling(step);
+    Pass pass{.first = step, .substeps = software_.substeps(), .falls = falls_.has_value()};
     pass.count = std::min(pass.substeps, options_.configuration.substeps);
     if (pass.ends() && !host_waits()) pass.steps = steps_of(step);
     if (!run_software(pass)) {
@@ -134,6 +135,13 @@ class Lockstep::Run {
     stopped_ = !options_.visit(memory_, report_);
   }
 
+  // The host finds the cells that fall, in the memory before the pass.
+  void find_falling(std::uint32_t step) {
+    falls_.reset();
+    const Design& design = machine_.design();
+    if (const auto falling = cells_that_fall(design.parameters, step, memory_))
+      falls_.emplace(*falling, design.shape);
+  }
   bool host_waits() const { return host_sees_each_step(machine_.design().parameters); }
   // Returns the steps of a pass, which does not reach beyond a step at which `visit` is called.
   int steps_of(std::uint32_t step) const {
@@ -206,7 +214,7 @@ class Lockstep::Run {
   bool run_train(const Pass& first) {
     checker_.begin_train();
     if (planted_) planted_->begin_train();
-    feed_checker_.begin_train(software_.irradiance());
+    feed_checker_.begin_train(software_.irradiance(), first.falls ? falling_ : std::nullopt);
     add_pass(first);
     std::vector<Pass> passes{first};
     const auto next = [&]() -> std::optional<Pass> {
@@ -261,8 +269,9 @@ class Lockstep::Run {
     std::optional<IrradianceStream> stream;
     if (irradiance != nullptr)
       report_.irradiance = stream.emplace(*irradiance, machine_.design().shape).counts();
+    const Fed fed(stream ? &*stream : nullptr, first.falls ? &*falls_ : nullptr);
     try {
-      end = machine_.run_train(first, next, stream ? &*stream : nullptr, memory_);
+      end = machine_.run_train(first, next, fed, memory_);
     } catch (const StageError& error) {
       if (checker_.mismatch() != nullptr) {  // an error may follow from a difference
         report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
@@ -299,7 +308,7 @@ class Lockstep::Run {
     if (checker_.mismatch() != nullptr) report_.mismatch = std::make_unique<Mismatch>(*checker_.mismatch());
     if (report_.mismatch == nullptr && end.hangs)
       report_.mismatch = std::make_unique<Mismatch>(hang_of(machine_, first, end.cycles));
-    if (options_.streamed) options_.streamed(passes, stream ? &*stream : nullptr);
+    if (options_.streamed) options_.streamed(passes, fed);
     return report_.mismatch == nullptr;
   }
 
@@ -350,6 +359,8 @@ class Lockstep::Run {
   state::Volume memory_;
   std::vector<std::vector<Expected>> expected_;   // for the pass that the software has run last
   std::shared_ptr<const state::Volume> written_;  // its state, where steps are not compared
+  std::optional<FallStream> falls_;               // cells that fall, in the memory of the machine
+  std::optional<state::BitPlane> falling_;        // the same by the software
   std::unique_ptr<Mismatch> software_mismatch_;
   std::optional<Waves> waves_;
   std::uint32_t next_step_ = 0;  // step after that pass

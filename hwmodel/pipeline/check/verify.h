@@ -42,8 +42,8 @@ struct VerifyOptions {
   StreamMemory* memory = nullptr;
   // Other machines may run in this simulation, too. If it is null, the pipeline has one of its own.
   Simulation* simulation = nullptr;
-  // This is called after every train, with its passes.
-  std::function<void(const std::vector<Pass>& passes, const IrradianceStream* irradiance)> streamed;
+  // This is called after every train, with its passes and what was fed.
+  std::function<void(const std::vector<Pass>& passes, const Fed& fed)> streamed;
 };
 
 // Describes passes that followed one another without a gap.

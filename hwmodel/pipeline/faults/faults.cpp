@@ -7,6 +7,18 @@ namespace {
 
 using enum Fault;
 constexpr std::array kFaults{
+    // Faults of pieces strike in scenes in which some fall.
+    FaultInfo{fall_not_passed, "fall-not-passed", "fall",
+              "a cell that falls is not let by (needs pieces that fall)"},
+    FaultInfo{fall_late, "fall-late", "fall",
+              "a lane takes the bit of the cell below (needs pieces that fall)"},
+    FaultInfo{fall_lane, "fall-lane", "fall",
+              "a lane takes the bit of the next one (needs pieces that fall, and two lanes)"},
+    FaultInfo{fall_below_lost, "fall-below-lost", "fall",
+              "the uppermost cell of a piece leaves twice, the one below the piece never (needs pieces that "
+              "fall)"},
+    FaultInfo{fall_heat_stays, "fall-heat-stays", "fall",
+              "a cell falls without its heat (needs pieces that fall)"},
     FaultInfo{vent_rate, "vent-rate", "source", "a vent adds one unit more than its rate"},
     FaultInfo{drain_energy, "drain-energy", "source",
               "a drain leaves one unit of energy above the amount that is left"},
@@ -94,6 +106,8 @@ constexpr std::array kFaults{
               "a count of dark tokens is one too small: irradiance comes a token too early"},
     FaultInfo{feed_mask, "feed-mask", "feed", "a mask of irradiance is shifted by a lane (needs two lanes)"},
     FaultInfo{feed_word_lost, "feed-word-lost", "feed", "a feed takes one word too few for a token"},
+    FaultInfo{feed_falls_stale, "feed-falls-stale", "fall feed",
+              "a token gets the bits of the token before (needs pieces that fall)"},
     // Faults of the code strike with hw.coded.
     FaultInfo{code_lane_missed, "code-lane-missed", "writer",
               "a token is left out as air, though its last lane holds something (needs hw.coded)"},

@@ -13,6 +13,12 @@ namespace voxmelt::hwmodel {
 
 enum class Fault : std::uint8_t {
   none,
+  // These strike the stage `fall`.
+  fall_not_passed,
+  fall_late,
+  fall_lane,
+  fall_below_lost,
+  fall_heat_stays,
   // These strike the stage `source`.
   vent_rate,
   drain_energy,
@@ -78,6 +84,7 @@ enum class Fault : std::uint8_t {
   feed_early,
   feed_mask,
   feed_word_lost,
+  feed_falls_stale,
   // These strike the occupancy code.
   code_lane_missed,
   code_bit_moved,
@@ -96,7 +103,15 @@ inline bool is_of_tiles(Fault fault) {
   return fault >= Fault::tile_vent && fault <= Fault::tile_counted_twice;
 }
 
-inline bool is_of_feeds(Fault fault) { return fault >= Fault::feed_early && fault <= Fault::feed_word_lost; }
+// Such a fault strikes where pieces fall.
+inline bool is_of_pieces(Fault fault) {
+  return (fault >= Fault::fall_not_passed && fault <= Fault::fall_heat_stays) ||
+         fault == Fault::feed_falls_stale;
+}
+
+inline bool is_of_feeds(Fault fault) {
+  return fault >= Fault::feed_early && fault <= Fault::feed_falls_stale;
+}
 
 inline bool is_of_the_code(Fault fault) {
   return fault >= Fault::code_lane_missed && fault <= Fault::code_bit_early;

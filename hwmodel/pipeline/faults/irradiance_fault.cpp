@@ -1,6 +1,7 @@
 #include "hwmodel/pipeline/faults/irradiance_fault.h"
 
 #include <bit>
+#include <string>
 
 namespace voxmelt::hwmodel {
 
@@ -33,8 +34,16 @@ void IrradianceFault::masked(int t, std::int64_t pass, const Place& place, std::
   }
 }
 
-void IrradianceFault::strike(std::uint32_t step, const Place& place, int lane) {
-  plan_.strike({"feed", step, place.x + lane, place.y, place.z});
+void IrradianceFault::told(std::int64_t pass, const Place& place, std::uint32_t before, std::uint32_t& mask) {
+  const std::uint32_t step = step_of(0, pass);
+  if (!plan_.armed(Fault::feed_falls_stale, step) || before == mask) return;
+  const int lane = std::countr_zero(before ^ mask);
+  mask = before;
+  strike(step, place, lane, StageKind::fall_feed);
+}
+
+void IrradianceFault::strike(std::uint32_t step, const Place& place, int lane, StageKind feed) {
+  plan_.strike({std::string(name_of(feed)), step, place.x + lane, place.y, place.z});
 }
 
 }  // namespace voxmelt::hwmodel

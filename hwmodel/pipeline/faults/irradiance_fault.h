@@ -1,5 +1,5 @@
 // These faults spoil what a feed makes of the words of irradiance. It counts too few dark tokens, takes a
-// mask of the wrong lanes, or takes a word too few.
+// mask of the wrong lanes, or takes a word too few. Or it gives the bits of pieces once more.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,12 @@ class IrradianceFault final : public FeedFault {
   void add_pass(const Pass& pass) { passes_.push_back(pass); }
 
   void counted(int t, std::int64_t pass, const Place& place, std::uint32_t mask, std::int64_t& dark) override;
+  void told(std::int64_t pass, const Place& place, std::uint32_t before, std::uint32_t& mask) override;
   void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) override;
 
  private:
   std::uint32_t step_of(int t, std::int64_t pass) const { return passes_[pass].first + t; }
-  void strike(std::uint32_t step, const Place& place, int lane);
+  void strike(std::uint32_t step, const Place& place, int lane, StageKind feed = StageKind::feed);
 
   FaultPlan& plan_;
   Pipeline& pipeline_;

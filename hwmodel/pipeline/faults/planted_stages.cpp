@@ -6,6 +6,7 @@
 #include "hwmodel/pipeline/faults/conduction_faults.h"
 #include "hwmodel/pipeline/faults/convection_faults.h"
 #include "hwmodel/pipeline/faults/exchange_faults.h"
+#include "hwmodel/pipeline/faults/fall_faults.h"
 #include "hwmodel/pipeline/faults/gravity_faults.h"
 #include "hwmodel/pipeline/faults/melt_faults.h"
 #include "hwmodel/pipeline/faults/pattern_faults.h"
@@ -23,6 +24,8 @@ StageMaker planted_stages(FaultPlan& plan) {
   return [&plan](StageKind kind, const Design& design) -> std::unique_ptr<Stage> {
     using enum StageKind;
     switch (kind) {
+      case fall:
+        return std::make_unique<FallOfPieces<FallFaults>>(design, FallFaults(plan, design));
       case source:
         return std::make_unique<Source<SourceFaults>>(design, SourceFaults(plan));
       case conduction:

@@ -40,6 +40,9 @@ class StepBlock {
   void feed(HeatFifo& feed) {
     for (const auto& stage : stages_) stage->feed(feed);
   }
+  void feed_falls(FallFifo& feed) {
+    for (const auto& stage : stages_) stage->feed_falls(feed);
+  }
   // The first pass of a train begins with an empty machine. Further ones are added.
   void begin_pass(const Pass& pass, int position, bool first) {
     const std::uint32_t step = pass.first + position;

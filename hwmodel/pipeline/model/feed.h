@@ -1,28 +1,33 @@
-// A feed streams irradiance to one time step. It is plain C++ that runs one cycle at a time.
+// A feed streams to a stage what the host has computed beside the pipeline: irradiance, or which cells fall.
+// It is plain C++ that runs one cycle at a time.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 
+#include "hwmodel/pipeline/model/fall_stream.h"
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 #include "hwmodel/pipeline/model/stage.h"
 #include "hwmodel/pipeline/model/stream_memory.h"
 
 namespace voxmelt::hwmodel {
 
+// `Stream` lies in memory, and `Reader` makes tokens of it.
+template <class Stream, class Reader, class Value>
 class Feed {
  public:
-  Feed(const Shape& shape, int step, HeatFifo& out)
-      : shape_(shape), step_(step), out_(out), reader_(shape.lanes) {}
+  // The memory knows the feed by its `number`. Irradiance has that of its time step.
+  Feed(const Shape& shape, int number, Fifo<Value>& out)
+      : shape_(shape), number_(number), out_(out), reader_(shape.lanes) {}
 
   // `stream` is null if the time step does not work.
-  void begin_pass(const IrradianceStream* stream, int tile) {
+  void begin_pass(const Stream* stream, int tile) {
     stream_ = stream;
     passes_ = 0;
     next_.clear();
     begin_tile(tile);
   }
-  // Adds another tile for which the time step works, with the same irradiance.
+  // Adds another tile for which the time step works, with the same stream.
   void add_pass(int tile) { next_.push_back(tile); }
   void dram(StreamMemory* dram) { dram_ = dram; }
   void plant(FeedFault* fault) { fault_ = fault; }
@@ -41,16 +46,16 @@ class Feed {
       ++cycles_.blocked;
       return;
     }
-    if (dram_ != nullptr && !dram_->may_feed(step_, reader_.needs() * IrradianceStream::kWordBits, now)) {
+    if (dram_ != nullptr && !dram_->may_feed(number_, reader_.needs() * reader_.word_bits(), now)) {
       ++cycles_.memory;
       return;
     }
     const std::int64_t before = reader_.used();
-    reader_.next(out_.put(), place_, fault_, step_, passes_);
-    bits_ += (reader_.used() - before) * IrradianceStream::kWordBits;
+    reader_.next(out_.put(), place_, fault_, number_, passes_);
+    bits_ += (reader_.used() - before) * reader_.word_bits();
     place_.next(shape_);
     if (dram_ != nullptr)
-      dram_->fed(step_, reader_.used() * IrradianceStream::kWordBits, place_.ordinal == shape_.tokens(), now);
+      dram_->fed(number_, reader_.used() * reader_.word_bits(), place_.ordinal == shape_.tokens(), now);
     ++cycles_.busy;
   }
   const StageCycles& cycles() const { return cycles_; }
@@ -63,16 +68,19 @@ class Feed {
   }
 
   Shape shape_;
-  int step_;  // the time step that it feeds
-  HeatFifo& out_;
+  int number_;
+  Fifo<Value>& out_;
   StreamMemory* dram_ = nullptr;  // memory that the feed waits for; null: none
-  const IrradianceStream* stream_ = nullptr;
-  IrradianceReader reader_;
+  const Stream* stream_ = nullptr;
+  Reader reader_;
   Place place_;
   std::deque<int> next_;  // the tiles that follow
   std::int64_t passes_ = 0, bits_ = 0;
   FeedFault* fault_ = nullptr;
   StageCycles cycles_;
 };
+
+using IrradianceFeed = Feed<IrradianceStream, IrradianceReader, UInt<16>>;
+using FallFeed = Feed<FallStream, FallReader, UInt<1>>;
 
 }  // namespace voxmelt::hwmodel

@@ -47,7 +47,7 @@ class IrradianceStream {
   Counts counts_;
 };
 
-// Lets a planted fault spoil what the machine makes of the words.
+// Lets a planted fault spoil what the machine makes of the words of irradiance, or of the bits of pieces.
 class FeedFault {
  public:
   virtual ~FeedFault() = default;
@@ -57,6 +57,10 @@ class FeedFault {
   virtual void counted(int t, std::int64_t pass, const Place& place, std::uint32_t mask,
                        std::int64_t& dark) = 0;
   virtual void masked(int t, std::int64_t pass, const Place& place, std::uint32_t& mask, bool& last_lost) = 0;
+  // This is called when the feed of pieces has read which cells of the token at `place` fall. `before` are
+  // those of the token before it.
+  virtual void told(std::int64_t /*pass*/, const Place& /*place*/, std::uint32_t /*before*/,
+                    std::uint32_t& /*mask*/) {}
 };
 
 // Makes tokens of the words, one a cycle if the words are there.
@@ -86,6 +90,7 @@ class IrradianceReader {
     return end;
   }
   std::int64_t used() const { return at_; }
+  static std::int64_t word_bits() { return IrradianceStream::kWordBits; }
 
   // Makes the next token, at `place`.
   void next(UInt<16>* lanes, const Place& place, FeedFault* fault, int t, std::int64_t pass) {

@@ -15,7 +15,8 @@ Lag lag_of(StageKind kind, const Design& design) {
       return {1, 1, 0, 1};
     case corners:
       return {1, 1, 1, 1};
-    case convection:  // the cell above
+    case fall:        // the cell above
+    case convection:  // the same
       return {0, 0, 1};
     case gravity:  // the cell above; where films hang, also the one above that
       return {0, 0, design.parameters.flow.fall.hang > 0 ? 2 : 1};

@@ -8,6 +8,7 @@
 
 namespace voxmelt::hwmodel {
 
+std::unique_ptr<Stage> make_fall(const Design& design);
 std::unique_ptr<Stage> make_source(const Design& design);
 std::unique_ptr<Stage> make_conduction(const Design& design);
 std::unique_ptr<Stage> make_edge_conduction(const Design& design);

@@ -7,6 +7,9 @@
 namespace voxmelt::hwmodel {
 
 struct NoFaults {
+  // Fall says whether the cell that came passes the held one, and passes the cell that leaves.
+  static void judged(auto&&...) {}
+  static void turned_round(auto&&...) {}
   // Source, exchange and melt pass the cell that leaves.
   static void treated(auto&&...) {}
   static void exchanged(auto&&...) {}

@@ -53,8 +53,14 @@ struct Pipeline::Machine {
       const std::string name = step_name(t) + "feed -> exchange";
       feed_links.push_back(std::make_unique<Link<UInt<16>>>(name, kFirstFeedChannel + t, c.lanes,
                                                             depth_of(name), c.stall_seed));
-      feeds.push_back(std::make_unique<Feed>(design.shape, t, feed_links.back()->fifo()));
+      feeds.push_back(std::make_unique<IrradianceFeed>(design.shape, t, feed_links.back()->fifo()));
       step.feed(feed_links.back()->fifo());
+    }
+    if (parameters.pieces.fall) {  // a pass has one time step then
+      const std::string name = step_name(0) + "feed -> fall";
+      fall_link = std::make_unique<Link<UInt<1>>>(name, kFallChannel, c.lanes, depth_of(name), c.stall_seed);
+      fall_feed.emplace(design.shape, c.cascade, fall_link->fifo());
+      steps.front()->feed_falls(fall_link->fifo());
     }
     reader.connect(links.front()->fifo(), writer);
     writer.connect(links.back()->fifo());
@@ -93,6 +99,11 @@ struct Pipeline::Machine {
         feeds[t]->cycle(part.cycle());
         feed_links[t]->tick();
       });
+    if (fall_feed)
+      add("feed_fall", [this] {
+        fall_feed->cycle(part.cycle());
+        fall_link->tick();
+      });
     add("writer", [this] {
       writer.cycle(part.cycle());
       if (dram != nullptr) dram->cycle(part.cycle());
@@ -129,6 +140,7 @@ struct Pipeline::Machine {
     writer.add_pass(pass->tile);
     for (int t = 0; t < std::ssize(feeds); ++t)
       if (fed(*pass, t)) feeds[t]->add_pass(pass->tile);
+    if (fall_feed && pass->uses(StageKind::fall, 0)) fall_feed->add_pass(pass->tile);
   }
 
   using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
@@ -166,7 +178,9 @@ struct Pipeline::Machine {
   std::vector<std::unique_ptr<StepBlock>> steps;
   std::vector<std::unique_ptr<Link<Cell>>> links;
   std::vector<std::unique_ptr<Link<UInt<16>>>> feed_links;
-  std::vector<std::unique_ptr<Feed>> feeds;
+  std::vector<std::unique_ptr<IrradianceFeed>> feeds;
+  std::unique_ptr<Link<UInt<1>>> fall_link;  // with pieces that fall
+  std::optional<FallFeed> fall_feed;
   std::vector<std::unique_ptr<Block>> blocks;
 };
 
@@ -193,6 +207,7 @@ void Pipeline::memory(StreamMemory* memory) {
   m.reader.dram(memory);
   m.writer.dram(memory);
   for (const auto& feed : m.feeds) feed->dram(memory);
+  if (m.fall_feed) m.fall_feed->dram(memory);
 }
 
 void Pipeline::poll(std::function<void()> poll) { machine_->part.poll = std::move(poll); }
@@ -212,10 +227,15 @@ void Pipeline::plant(PortFault* fault) {
 
 void Pipeline::plant(FeedFault* fault) {
   for (const auto& feed : machine_->feeds) feed->plant(fault);
+  if (machine_->fall_feed) machine_->fall_feed->plant(fault);
 }
 
 void Pipeline::watch_feeds(FifoWatcher<UInt<16>>* watcher) {
   for (const auto& link : machine_->feed_links) link->fifo().watch(watcher);
+}
+
+void Pipeline::watch_falls(FifoWatcher<UInt<1>>* watcher) {
+  if (machine_->fall_link) machine_->fall_link->fifo().watch(watcher);
 }
 
 void Pipeline::plant(CodeFault* fault) {
@@ -236,26 +256,29 @@ std::vector<CellFifo*> Pipeline::channels_behind_stages(int cascade) {
 }
 
 PassEnd Pipeline::run_pass(const Pass& pass, const Irradiance* irradiance, state::Volume& volume) {
-  if (irradiance == nullptr) return run_train(pass, {}, nullptr, volume);
+  if (irradiance == nullptr) return run_train(pass, {}, {}, volume);
   const IrradianceStream stream(*irradiance, design().shape);
   return run_train(pass, {}, &stream, volume);
 }
 
-PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const IrradianceStream* irradiance,
-                            state::Volume& volume) {
+PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Fed& fed, state::Volume& volume) {
   Machine& m = *machine_;
   m.passes = 0;
   m.next = next;
   m.for_each_channel([&](CellFifo& fifo, const Stage*, int) { fifo.begin_pass(pass.first); });
   for (const auto& link : m.feed_links) link->fifo().begin_pass(pass.first);
+  if (m.fall_link) m.fall_link->fifo().begin_pass(pass.first);
+  const FallStream* falls = pass.uses(StageKind::fall, 0) ? fed.falls : nullptr;
   m.memory.begin_train(volume);
   m.reader.begin_pass(pass.tile);
   m.writer.begin_pass(pass.tile);
   m.begin(pass, true);
   if (m.dram != nullptr)
-    m.dram->begin_train({pass.tile, m.fed_steps(pass), irradiance, {m.memory.code(0), m.memory.code(1)}});
+    m.dram->begin_train(
+        {pass.tile, m.fed_steps(pass), fed.irradiance, {m.memory.code(0), m.memory.code(1)}, falls});
   for (int t = 0; t < std::ssize(m.feeds); ++t)
-    m.feeds[t]->begin_pass(m.fed(pass, t) ? irradiance : nullptr, pass.tile);
+    m.feeds[t]->begin_pass(m.fed(pass, t) ? fed.irradiance : nullptr, pass.tile);
+  if (m.fall_feed) m.fall_feed->begin_pass(falls, pass.tile);
 
   simulation_.begin(m.part);
   simulation_.run(m.part);
@@ -283,6 +306,11 @@ std::vector<ChannelReport> Pipeline::channels() const {
     reports.push_back({fifo.name(), StageKind::feed, t, fifo.depth(), 16, fifo.highest(), fifo.count(),
                        fifo.entered(), fifo.occupancy()});
   }
+  if (m.fall_link) {
+    const FallFifo& fifo = m.fall_link->fifo();
+    reports.push_back({fifo.name(), StageKind::fall_feed, 0, fifo.depth(), 1, fifo.highest(), fifo.count(),
+                       fifo.entered(), fifo.occupancy()});
+  }
   return reports;
 }
 
@@ -299,6 +327,7 @@ std::vector<StageCycles> Pipeline::accounts() const {
   for (const auto& step : m.steps)
     for (const auto& stage : step->stages()) accounts.push_back(stage->cycles());
   for (const auto& feed : m.feeds) accounts.push_back(feed->cycles());
+  if (m.fall_feed) accounts.push_back(m.fall_feed->cycles());
   accounts.push_back(m.writer.cycles());
   return accounts;
 }
@@ -312,6 +341,8 @@ std::vector<StageReport> Pipeline::stages() const {
       reports.push_back({stage->kind(), t, stage->lag(), stage->cycles(), stage->buffers(), stage->units()});
   for (int t = 0; t < std::ssize(m.feeds); ++t)
     reports.push_back({StageKind::feed, t, 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
+  if (m.fall_feed)
+    reports.push_back({StageKind::fall_feed, 0, 0, m.fall_feed->cycles(), {}, {}, m.fall_feed->bits()});
   reports.push_back({StageKind::writer,
                      m.configuration.cascade - 1,
                      0,

@@ -3,7 +3,8 @@
 //
 //   memory -> reader -> [step t] -> [step t + 1] -> ... -> writer -> memory
 //                          ^             ^
-//                        feed          feed        (irradiance, where the scene has radiation)
+//                        feed          feed        (irradiance, where the scene has radiation;
+//                                                   in step t also the cells that fall)
 #pragma once
 
 #include <cstdint>
@@ -47,11 +48,11 @@ class Pipeline final : public StreamMachine {
   void watch(FifoWatcher<Cell>* watcher) override;
   void watch_columns(ColumnWatcher* watcher) override;
   void watch_feeds(FifoWatcher<UInt<16>>* watcher) override;
+  void watch_falls(FifoWatcher<UInt<1>>* watcher) override;
   void each_cycle(std::function<void()> watch) override;
   void memory(StreamMemory* memory) override;
   void poll(std::function<void()> poll) override;
-  PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
-                    state::Volume& volume) override;
+  PassEnd run_train(const Pass& first, const Next& next, const Fed& fed, state::Volume& volume) override;
   const Books& books() const override;
   const state::Volume& written() const override;
   std::vector<ChannelReport> channels() const override;

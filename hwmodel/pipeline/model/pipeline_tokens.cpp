@@ -26,7 +26,7 @@ TokenType cell_tokens(int lanes) {
 std::vector<TokenChannel> Pipeline::token_channels() const {
   std::vector<TokenChannel> all;
   for (const ChannelReport& channel : channels())
-    if (channel.producer != StageKind::feed)
+    if (!is_feed(channel.producer))
       all.push_back(
           {channel.name, static_cast<int>(all.size()), channel.depth, cell_tokens(design().shape.lanes)});
   return all;

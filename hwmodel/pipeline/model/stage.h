@@ -26,6 +26,7 @@ namespace voxmelt::hwmodel {
 
 using CellFifo = Fifo<Cell>;
 using HeatFifo = Fifo<UInt<16>>;  // irradiance, 1/16 temperature unit per step
+using FallFifo = Fifo<UInt<1>>;   // does the cell fall?
 
 // Holds what all stages of a design share.
 struct Design {
@@ -136,7 +137,9 @@ class Stage {
     in_ = &in;
     out_ = &out;
   }
-  virtual void feed(HeatFifo& /*feed*/) {}  // a second input, of irradiance; only `exchange` has one
+  // A second input: `exchange` has one of irradiance, and `fall` one of the cells that fall.
+  virtual void feed(HeatFifo& /*feed*/) {}
+  virtual void feed_falls(FallFifo& /*feed*/) {}
 
   // A pass streams one tile once. The first one of a train finds the stage empty. Those that are added while
   // it runs follow without a gap.

@@ -10,10 +10,11 @@
 
 namespace voxmelt::hwmodel {
 
-// The kinds stand in the order of the stream. Reader, writer and feed are no stages of a time step, but are
+// The kinds stand in the order of the stream. Reader, writer and feeds are no stages of a time step, but are
 // reported like them.
 enum class StageKind : std::uint8_t {
   reader,
+  fall,  // of pieces; before all phases
   source,
   conduction,  // through faces; also exposed axes and sides
   edges,
@@ -27,13 +28,14 @@ enum class StageKind : std::uint8_t {
   apply,
   settle,
   viscous_spread,
-  feed,  // irradiance
+  feed,       // irradiance
+  fall_feed,  // which cells fall
   writer,
 };
 
 struct StageKindInfo {
   std::string_view name;
-  std::optional<step::Phase> phase;  // none for reader, feed and writer
+  std::optional<step::Phase> phase;  // none for reader, feeds and writer, and for what precedes all phases
 };
 
 // A value that is no enumerator has no name.
@@ -43,6 +45,8 @@ constexpr StageKindInfo info_of(StageKind kind) {
   switch (kind) {
     case reader:
       return {"reader", {}};
+    case fall:
+      return {"fall", {}};
     case source:
       return {"source", Phase::source};
     case conduction:
@@ -71,6 +75,8 @@ constexpr StageKindInfo info_of(StageKind kind) {
       return {"spread", Phase::spread};
     case feed:
       return {"feed", {}};
+    case fall_feed:
+      return {"fall feed", {}};
     case writer:
       return {"writer", {}};
   }
@@ -79,6 +85,10 @@ constexpr StageKindInfo info_of(StageKind kind) {
 
 constexpr std::string_view name_of(StageKind kind) { return info_of(kind).name; }
 constexpr std::optional<step::Phase> phase_of(StageKind kind) { return info_of(kind).phase; }
+
+constexpr bool is_feed(StageKind kind) { return kind == StageKind::feed || kind == StageKind::fall_feed; }
+// Returns true for a stage of a time step.
+constexpr bool is_stage(StageKind kind) { return kind == StageKind::fall || phase_of(kind).has_value(); }
 
 constexpr std::string_view name_of(step::Phase phase) { return step::kPhaseNames[step::index_of(phase)]; }
 constexpr std::string_view name_of(std::optional<step::Phase> phase) {

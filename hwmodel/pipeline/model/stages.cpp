@@ -15,6 +15,7 @@ std::vector<StageKind> stages_of_step(const Design& design) {
   const rule::Parameters& parameters = design.parameters;
   const rule::Heat& heat = parameters.heat;
 
+  if (parameters.pieces.fall) add(fall);
   if (parameters.has_openings()) add(source);
   if (design.hot()) {
     add(conduction);
@@ -42,6 +43,8 @@ std::vector<StageKind> stages_of_step(const Design& design) {
 std::unique_ptr<Stage> make_stage(StageKind kind, const Design& design) {
   using enum StageKind;
   switch (kind) {
+    case fall:
+      return make_fall(design);
     case source:
       return make_source(design);
     case conduction:
@@ -70,6 +73,7 @@ std::unique_ptr<Stage> make_stage(StageKind kind, const Design& design) {
       return make_viscous_spread(design);
     case reader:
     case feed:
+    case fall_feed:
     case writer:
       break;
   }

@@ -23,12 +23,14 @@ struct Pass {
   int steps = 1;                             // 1..cascade
   int substep = 0, count = 1, substeps = 1;  // first sub-step, how many, and of how many
   int tile = 0;
+  bool falls = false;  // does a piece fall at the begin of the first time step?
 
   bool begins() const { return substep == 0; }
   bool ends() const { return substep + count == substeps; }
   // Returns true if a stage works in this pass. `copy` is the number of this copy of settle or spread.
   bool uses(StageKind kind, int copy) const {
     if (kind == StageKind::settle || kind == StageKind::viscous_spread) return copy < count;
+    if (kind == StageKind::fall) return begins() && falls;
     return kind == StageKind::gravity ? ends() : begins();
   }
 };

@@ -12,6 +12,7 @@
 
 #include "hwmodel/check/token_source.h"
 #include "hwmodel/pipeline/model/configuration.h"
+#include "hwmodel/pipeline/model/fall_stream.h"
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 #include "hwmodel/pipeline/model/memory_ports.h"
 #include "hwmodel/pipeline/model/stages.h"
@@ -28,6 +29,14 @@ struct ChannelReport {
   int depth = 0, bits = 0, highest = 0, count = 0;
   std::int64_t entered = 0;             // tokens, in the present train
   std::vector<std::int64_t> occupancy;  // cycles with 0, 1, ... tokens
+};
+
+// Holds what the host has computed beside the pipeline, and the feeds stream.
+struct Fed {
+  Fed(const IrradianceStream* of_heat = nullptr, const FallStream* of_pieces = nullptr)
+      : irradiance(of_heat), falls(of_pieces) {}
+  const IrradianceStream* irradiance;  // null without radiation
+  const FallStream* falls;             // null if nothing falls
 };
 
 struct StageReport {
@@ -71,7 +80,8 @@ class StreamMachine : public TokenSource {
   virtual void watch(FifoWatcher<Cell>* watcher) = 0;
   virtual void watch_columns(ColumnWatcher* watcher) = 0;        // columns that are written with hw.coded
   virtual void watch_feeds(FifoWatcher<UInt<16>>* watcher) = 0;  // channels: kFirstFeedChannel + time step
-  static constexpr int kFirstFeedChannel = 1000;
+  virtual void watch_falls(FifoWatcher<UInt<1>>* watcher) = 0;   // the channel of the cells that fall
+  static constexpr int kFirstFeedChannel = 1000, kFallChannel = 2000;
   // `watch` is called at the end of every cycle of every block. Then the accounts of all stages include this
   // cycle.
   virtual void each_cycle(std::function<void()> watch) = 0;
@@ -82,10 +92,10 @@ class StreamMachine : public TokenSource {
   // Streams passes over `volume`. Stages that a pass does not use are bypassed. When the last token of a pass
   // has been read, `next` says which pass follows without a gap, if any. It may be the next tile if
   // `tiles_follow` holds. Behind the last tile it may be the first one of a pass that has no more steps, if
-  // `passes_overlap` holds (prediction.h). `irradiance` is null without radiation. Throws StageError.
+  // `passes_overlap` holds (prediction.h). In a pass with `falls`, `fed` has the cells that fall. Throws
+  // StageError.
   using Next = std::function<std::optional<Pass>()>;
-  virtual PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
-                            state::Volume& volume) = 0;
+  virtual PassEnd run_train(const Pass& first, const Next& next, const Fed& fed, state::Volume& volume) = 0;
   virtual const Books& books() const = 0;            // sums of the pass that has been written last
   virtual const state::Volume& written() const = 0;  // volume to which the last token went
 

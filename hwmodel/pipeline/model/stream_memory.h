@@ -8,6 +8,7 @@
 
 namespace voxmelt::hwmodel {
 
+class FallStream;
 class IrradianceStream;
 class StoredColumns;
 
@@ -20,14 +21,16 @@ class StreamMemory {
     int fed = 0;                                    // time steps that read irradiance
     const IrradianceStream* irradiance = nullptr;   // irradiance that they read; null: it is dark
     std::array<const StoredColumns*, 2> columns{};  // contents of the copies of the state, if it is coded
+    const FallStream* falls = nullptr;              // cells that fall; null: no cell does
   };
   // A train begins with a pass, or with a tile of one. More are added while it runs. Nothing of an older
   // train is under way.
   virtual void begin_train(const Train& train) = 0;
   virtual void add_pass(int tile, int fed) = 0;
 
-  // Tell if the next token may be read, fed to time step `t`, or written. A feed needs the first `bits` of a
-  // pass. If the state is coded, so does the reader of a column. Only the cells that a tile owns are written.
+  // Tell if the next token may be read, fed to time step `t`, or written. The feed of pieces has the number
+  // behind those of all time steps. A feed needs the first `bits` of a pass. If the state is coded, so does
+  // the reader of a column. Only the cells that a tile owns are written.
   virtual bool may_read(std::int64_t bits, std::int64_t now) const = 0;
   virtual bool may_feed(int t, std::int64_t bits, std::int64_t now) const = 0;
   virtual bool may_write(std::int64_t now) const = 0;

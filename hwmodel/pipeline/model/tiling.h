@@ -18,8 +18,8 @@ int reach_of_step(const Design& design);
 // std::invalid_argument if there is a problem.
 Design design_of(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration);
 
-// Tells if the host needs the state before each step: it counts sub-steps, or turns the columns of pieces
-// that fall. A pass then has one time step.
+// Tells if the host needs the state before each step: it counts sub-steps, or finds the pieces that fall. A
+// pass then has one time step.
 bool host_sees_each_step(const rule::Parameters& parameters);
 
 // Tells which rule of a scene has no stage. The text is empty if all have.

@@ -117,9 +117,15 @@ Units units_of(const VerifyReport& report, int lanes) {
 // Holds what the memory has to give and take in a cycle in which nothing stalls. Traffic that depends on the
 // state is the mean over the run.
 struct Traffic {
-  double read = 0, written = 0, irradiance = 0;
-  double total() const { return read + written + irradiance; }
+  double read = 0, written = 0, irradiance = 0, falls = 0;
+  double total() const { return read + written + irradiance + falls; }
 };
+json json_of(const Traffic& traffic) {
+  return {{"read", traffic.read},
+          {"written", traffic.written},
+          {"irradiance", traffic.irradiance},
+          {"pieces", traffic.falls}};
+}
 Traffic traffic_of(const VerifyReport& report) {
   Traffic bits;
   for (const StageReport& stage : report.stages) {
@@ -128,6 +134,7 @@ Traffic traffic_of(const VerifyReport& report) {
     if (stage.kind == StageKind::reader) bits.read = mean;
     if (stage.kind == StageKind::writer) bits.written = mean;
     if (stage.kind == StageKind::feed) bits.irradiance += mean;
+    if (stage.kind == StageKind::fall_feed) bits.falls = mean;
   }
   return bits;
 }
@@ -155,16 +162,19 @@ std::string summary(const VerifyReport& report, const Design& design, const Conf
   int highest = 0;
   std::string fullest;
   for (const ChannelReport& channel : report.channels)
-    if (channel.producer != StageKind::feed && channel.highest > highest) {
+    if (!is_feed(channel.producer) && channel.highest > highest) {
       highest = channel.highest;
       fullest = channel.name;
     }
   text += fmt::format("channels: {} of depth {}, {} bits; high-water mark {} ({})\n", report.channels.size(),
                       configuration.fifo_depth, channel_bits(report, configuration.lanes), highest, fullest);
   text += fmt::format(
-      "memory traffic, bits per cycle: {:.1f} read + {:.1f} written + {:.1f} irradiance = {:.1f}; at 200 MHz "
+      "memory traffic, bits per cycle: {:.1f} read + {:.1f} written + {:.1f} irradiance{} = {:.1f}; at 200 "
+      "MHz "
       "{:.1f} GB/s\n",
-      traffic.read, traffic.written, traffic.irradiance, traffic.total(), traffic.total() / 8 * 0.2);
+      traffic.read, traffic.written, traffic.irradiance,
+      design.parameters.pieces.fall ? fmt::format(" + {:.1f} pieces", traffic.falls) : "", traffic.total(),
+      traffic.total() / 8 * 0.2);
 
   const std::optional<std::int64_t> on_memory = report.predicted_on_memory();
   const auto cells = static_cast<double>(shape.grid.cells()) * report.steps;
@@ -238,8 +248,7 @@ json json_of(const VerifyReport& report, const Design& design, const Configurati
                {{"multipliers", units.multipliers},
                 {"dividers", units.dividers},
                 {"random_blocks", units.random_blocks}}},
-              {"traffic_bits_per_cycle",
-               {{"read", traffic.read}, {"written", traffic.written}, {"irradiance", traffic.irradiance}}},
+              {"traffic_bits_per_cycle", json_of(traffic)},
               {"simulated_cell_steps", report.cell_steps},
               {"seconds_model", report.model_seconds},
               {"stages", stages},

@@ -44,7 +44,7 @@ Json bounds(const Json& json, const VerifyReport& report, const Design& design,
   const double done = cells * report.steps;
   const Json& traffic = json["traffic_bits_per_cycle"];
   const double bytes = (traffic["read"].get<double>() + traffic["written"].get<double>() +
-                        traffic["irradiance"].get<double>()) /
+                        traffic["irradiance"].get<double>() + traffic["pieces"].get<double>()) /
                        8;
   Json all{{"lanes_and_steps", lanes_and_steps},
            {"lanes_in_the_grid", in_grid},

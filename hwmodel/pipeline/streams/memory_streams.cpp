@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hwmodel/pipeline/model/fall_stream.h"
 #include "hwmodel/pipeline/model/irradiance_stream.h"
 
 namespace voxmelt::hwmodel {
@@ -13,7 +14,9 @@ std::int64_t stream_bytes(const Design& design, bool coded) {
   const std::int64_t state =
       coded || shape.tiled() ? ColumnSlots(design, coded, 0).bytes() : (shape.tokens() * word + 7) / 8;
   const std::int64_t words = 3 + shape.lanes;  // words of irradiance per token: the mask has two at most
-  return state + shape.tiles() * shape.tokens() * words * IrradianceStream::kWordBits / 8 +
+  const std::int64_t falls =
+      design.parameters.pieces.fall ? (FallStream::bits_of_tile(shape) + 7) / 8 + memory::kBurst : 0;
+  return state + shape.tiles() * (shape.tokens() * words * IrradianceStream::kWordBits / 8 + falls) +
          2 * memory::kBurst;
 }
 
@@ -24,7 +27,7 @@ MemoryStreams::MemoryStreams(const Design& design, int cascade, const memory::Pa
       clock_mhz_(clock_mhz),
       token_(std::int64_t{design.shape.lanes} * design.cell_bits()),
       tokens_(design.shape.tokens()),
-      feeds_(cascade) {}
+      feeds_(cascade + (design.parameters.pieces.fall ? 1 : 0)) {}
 
 MemoryStreams::MemoryStreams(const Design& design, int cascade, memory::Memory& shared, std::int64_t base)
     : MemoryStreams(design, cascade, memory::Parameters{}, 0) {
@@ -62,24 +65,34 @@ void MemoryStreams::begin_train(const Train& train) {
     state_.port = reader_;
     state_.pass = tokens_ * token_;
   }
-  // The state lies at the begin, and irradiance behind it.
-  const std::int64_t align = memory_->alignment();
-  const std::int64_t all = slots_ ? slots_->bytes() : burst_bits(tokens_ * token_) / 8;
-  irradiance_bits_.clear();
-  irradiance_at_.clear();
-  std::int64_t at = base_ + (all + align - 1) / align * align;
-  for (int tile = 0; tile < design_.shape.tiles(); ++tile) {
-    irradiance_bits_.push_back(train.irradiance == nullptr ? 0 : train.irradiance->bits(tile));
-    irradiance_at_.push_back(at);
-    at += burst_bits(irradiance_bits_.back()) / 8;
-  }
-  memory_->require(std::max(at, base_ + all), "the pipeline's state and irradiance");
+  lay_out(train);
   for (std::size_t t = 0; t < feeds_.size(); ++t) {
     feeds_[t] = {};
     feeds_[t].port = feed_ports_[t];
-    feeds_[t].bits_of_tile = &irradiance_bits_;
+    feeds_[t].laid = &irradiance_;
   }
+  anything_falls_ = train.falls != nullptr;
+  if (anything_falls_) feeds_.back().laid = &falls_;
   add_pass(train.tile, train.fed);
+}
+
+// The state lies at the begin, irradiance behind it, and then the cells that fall.
+void MemoryStreams::lay_out(const Train& train) {
+  const std::int64_t align = memory_->alignment();
+  const std::int64_t all = slots_ ? slots_->bytes() : burst_bits(tokens_ * token_) / 8;
+  std::int64_t at = base_ + (all + align - 1) / align * align;
+  const auto lay = [&](Laid& laid, const auto& bits_of) {
+    laid = {};
+    for (int tile = 0; tile < design_.shape.tiles(); ++tile) {
+      laid.bits.push_back(bits_of(tile));
+      laid.at.push_back(at);
+      at += burst_bits(laid.bits.back()) / 8;
+    }
+  };
+  lay(irradiance_, [&](int tile) { return train.irradiance == nullptr ? 0 : train.irradiance->bits(tile); });
+  lay(falls_,
+      [&](int /*tile*/) { return train.falls == nullptr ? 0 : FallStream::bits_of_tile(design_.shape); });
+  memory_->require(std::max(at, base_ + all), "the pipeline's state and irradiance");
 }
 
 void MemoryStreams::add_pass(int tile, int fed) {
@@ -89,11 +102,12 @@ void MemoryStreams::add_pass(int tile, int fed) {
   } else
     wanted_ += burst_bits(state_.pass);
   for (int t = 0; t < fed; ++t) feeds_[t].add(tile);
+  if (anything_falls_) feeds_.back().add(tile);
 }
 
 void MemoryStreams::Feed::add(int tile) {
   tiles.push_back(tile);
-  pass = (*bits_of_tile)[tiles.front()];
+  pass = laid->bits[tiles.front()];
 }
 
 void MemoryStreams::Feed::use(std::int64_t bits, bool ends, std::int64_t now) {
@@ -104,7 +118,7 @@ void MemoryStreams::Feed::use(std::int64_t bits, bool ends, std::int64_t now) {
     --asking;
   else
     asked_of_tile = 0;
-  if (!tiles.empty()) pass = (*bits_of_tile)[tiles.front()];
+  if (!tiles.empty()) pass = laid->bits[tiles.front()];
 }
 
 void MemoryStreams::take(Input& from, std::int64_t now) {
@@ -125,9 +139,9 @@ void MemoryStreams::fetch(Feed& from, std::int64_t now) {
   take(from, now);
   for (; from.asking < from.tiles.size(); ++from.asking, from.asked_of_tile = 0) {
     const std::size_t tile = from.tiles[from.asking];
-    while (from.asked_of_tile < irradiance_bits_[tile]) {
+    while (from.asked_of_tile < from.laid->bits[tile]) {
       if (!room(from, now)) return;
-      ask(from, irradiance_at_[tile] + from.asked_of_tile / 8);
+      ask(from, from.laid->at[tile] + from.asked_of_tile / 8);
       from.asked_of_tile += kBurstBits;
     }
   }

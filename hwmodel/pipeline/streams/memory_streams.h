@@ -18,7 +18,7 @@
 
 namespace voxmelt::hwmodel {
 
-// Returns the most bytes that the state and irradiance take.
+// Returns the most bytes that the state and what the feeds read take.
 std::int64_t stream_bytes(const Design& design, bool coded);
 
 class MemoryStreams final : public StreamMemory {
@@ -88,17 +88,22 @@ class MemoryStreams final : public StreamMemory {
     }
     std::int64_t used_before(std::int64_t now) const { return last_used == now ? before : used; }
   };
-  // Irradiance has a stretch for each tile of each pass. All of them stay in memory.
+  // Tells for each tile where what a feed reads lies: its bits, and its first address.
+  struct Laid {
+    std::vector<std::int64_t> bits, at;
+  };
+  // A feed has a stretch for each tile of each pass. All of them stay in memory.
   struct Feed : Input {
     std::deque<int> tiles;  // tile of the present stretch, and further ones
     std::size_t asking = 0;
     std::int64_t asked_of_tile = 0;
-    const std::vector<std::int64_t>* bits_of_tile = nullptr;
+    const Laid* laid = nullptr;
 
     void add(int tile);
     void use(std::int64_t bits, bool ends, std::int64_t now);
   };
   void open_ports();
+  void lay_out(const Train& train);
   void cycle_state(std::int64_t now);
   bool has_come(const Input& from) const;
   const Feed& feed(int t) const { return feeds_[t]; }
@@ -138,8 +143,9 @@ class MemoryStreams final : public StreamMemory {
   std::int64_t tokens_written_ = 0, last_written_ = -1, handed_ = 0;  // tokens; bits given to the memory
   std::array<std::int64_t, 2> unwritten_{};  // bits, at the begin of even and of odd cycles
 
-  std::vector<Feed> feeds_;
-  std::vector<std::int64_t> irradiance_bits_, irradiance_at_;  // for each tile: bits; first address
+  std::vector<Feed> feeds_;  // one of each time step, and with pieces that fall another one
+  Laid irradiance_, falls_;
+  bool anything_falls_ = false;  // in this train
 };
 
 }  // namespace voxmelt::hwmodel

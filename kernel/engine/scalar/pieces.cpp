@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "kernel/automaton/rule/pieces.h"
@@ -102,7 +103,8 @@ void turn_columns(state::Volume& volume, const state::BitPlane& moving) {
 
 }  // namespace
 
-bool let_pieces_fall(const rule::Pieces& pieces, std::uint32_t step, state::Volume& volume) {
+std::optional<state::BitPlane> falling_cells(const rule::Pieces& pieces, std::uint32_t step,
+                                             const state::Volume& volume) {
   const state::Grid grid = volume.grid;
   state::BitPlane seen(grid), moving(grid);
   bool any = false;
@@ -115,8 +117,14 @@ bool let_pieces_fall(const rule::Pieces& pieces, std::uint32_t step, state::Volu
         for (const Place& at : piece.cells) moving.set(at.x, at.y, at.z, true);
         any = true;
       }
-  if (any) turn_columns(volume, moving);
-  return any;
+  if (!any) return {};
+  return moving;
+}
+
+bool let_pieces_fall(const rule::Pieces& pieces, std::uint32_t step, state::Volume& volume) {
+  const std::optional<state::BitPlane> moving = falling_cells(pieces, step, volume);
+  if (moving) turn_columns(volume, *moving);
+  return moving.has_value();
 }
 
 }  // namespace voxmelt::scalar

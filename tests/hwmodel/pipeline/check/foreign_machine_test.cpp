@@ -33,12 +33,12 @@ class Foreign final : public StreamMachine, FifoWatcher<Cell> {
   void watch(FifoWatcher<Cell>* watcher) override { watcher_ = watcher; }
   void watch_columns(ColumnWatcher* watcher) override { inner_.watch_columns(watcher); }
   void watch_feeds(FifoWatcher<UInt<16>>* watcher) override { inner_.watch_feeds(watcher); }
+  void watch_falls(FifoWatcher<UInt<1>>* watcher) override { inner_.watch_falls(watcher); }
   void each_cycle(std::function<void()> watch) override { inner_.each_cycle(std::move(watch)); }
   void memory(StreamMemory* memory) override { inner_.memory(memory); }
   void poll(std::function<void()> poll) override { inner_.poll(std::move(poll)); }
-  PassEnd run_train(const Pass& first, const Next& next, const IrradianceStream* irradiance,
-                    state::Volume& volume) override {
-    return inner_.run_train(first, next, irradiance, volume);
+  PassEnd run_train(const Pass& first, const Next& next, const Fed& fed, state::Volume& volume) override {
+    return inner_.run_train(first, next, fed, volume);
   }
   const Books& books() const override { return inner_.books(); }
   const state::Volume& written() const override { return inner_.written(); }

@@ -35,25 +35,6 @@ TEST(Lockstep, Vaults) {
   }
 }
 
-// Boxes fall through air and into a pool, before passes of one step whatever the cascade.
-TEST(Lockstep, TheHostLetsPiecesFall) {
-  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
-    Start start = hostile_start(1, law, {20, 16, 12});
-    start.parameters.heat = {};
-    start.parameters.pieces = {true, 2, 40000};
-    start.volume = state::Volume({20, 16, 12});
-    worlds::fill(start.volume, {0, 0, 0, 20, 4, 12}, 4096);
-    worlds::for_each({3, 9, 2, 8, 13, 7},
-                     [&](int x, int y, int z) { worlds::put_solid(start.volume, x, y, z); });
-    worlds::for_each({11, 6, 5, 17, 9, 11},
-                     [&](int x, int y, int z) { worlds::put_solid(start.volume, x, y, z, 3000); });
-    for (const int cascade : {1, 3}) {
-      ASSERT_TRUE(agrees(start, {4, cascade, 2, 0}, 9)) << cascade;
-      ASSERT_TRUE(agrees(start, {8, cascade, 2, 5}, 4)) << cascade;
-    }
-  }
-}
-
 TEST(Lockstep, AwkwardSizes) {
   std::uint64_t seed = 1000;
   for (const int size : {1, 2, 63, 64, 65})

@@ -98,8 +98,18 @@ inline Start vault_start(std::uint64_t seed, state::Grid grid) {
   return {"vaults " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
 
+// Starts with a hostile world in which pieces fall: most of its solids hang in the air or in liquid.
+inline Start pieces_start(std::uint64_t seed, rule::Law law, state::Grid grid) {
+  Start start = hostile_start(seed, law, grid);
+  worlds::Random random(seed * 6151 + 6);
+  start.name = "pieces " + std::to_string(seed);
+  start.parameters.pieces = {true, random.between(1, 3), random.any({1, 40000, 65536})};
+  return start;
+}
+
 // Starts with a world in which the fault may strike. Random amounts hardly ever make two shut runs that meet.
 inline Start start_for(Fault fault, std::uint64_t seed, rule::Law law, state::Grid grid) {
+  if (is_of_pieces(fault)) return pieces_start(seed, law, grid);
   return fault == Fault::viscous_shut ? vault_start(seed, grid) : hostile_start(seed, law, grid);
 }
 
@@ -136,7 +146,7 @@ inline bool agrees(const Start& start, const Configuration& configuration, std::
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
   std::int64_t stages = 0;  // the stages of one time step
-  for (const StageReport& stage : report.stages) stages += phase_of(stage.kind) && stage.cascade == 0;
+  for (const StageReport& stage : report.stages) stages += is_stage(stage.kind) && stage.cascade == 0;
   EXPECT_GE(stages, 3) << where;
   // A step with more sub-steps than the machine has copies takes several passes.
   if (start.parameters.flow.law == rule::Law::paper || start.parameters.flow.viscous.substeps == 1)

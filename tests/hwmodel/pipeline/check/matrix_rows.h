@@ -149,7 +149,7 @@ inline VerifyReport run_row(const Start& start, const MatrixRow& row, const Conf
   EXPECT_EQ(report.mismatch, nullptr) << where << ":\n" << (report.mismatch ? text_of(*report.mismatch) : "");
   if (report.mismatch) return report;
   std::int64_t stages = 0;  // the stages of one time step
-  for (const StageReport& stage : report.stages) stages += phase_of(stage.kind) && stage.cascade == 0;
+  for (const StageReport& stage : report.stages) stages += is_stage(stage.kind) && stage.cascade == 0;
   EXPECT_GE(report.compared_cells, static_cast<std::int64_t>(start.volume.grid.cells()) * stages * steps)
       << where;
   const bool waits = c.stall_seed != 0 || row[kMemory] > 0;

@@ -121,7 +121,7 @@ TEST(StageAccount, ABypassedPassIsCountedAsSuch) {
 TEST(StageAccount, AFeedIsBypassedOrDrains) {
   const Shape shape{{1, 2, 1}};
   HeatFifo out("feed", 0, 1, 4, 0);
-  Feed feed(shape, 0, out);
+  IrradianceFeed feed(shape, 0, out);
   std::int64_t now = 0;
   const auto cycles = [&](int n) {
     while (n-- > 0) {

@@ -17,6 +17,7 @@ struct Known {
   const char *name, *phase;
 };
 constexpr Known kKnown[] = {{StageKind::reader, "reader", ""},
+                            {StageKind::fall, "fall", ""},
                             {StageKind::source, "source", "source"},
                             {StageKind::conduction, "conduction", "heat"},
                             {StageKind::edges, "edges", "heat"},
@@ -31,6 +32,7 @@ constexpr Known kKnown[] = {{StageKind::reader, "reader", ""},
                             {StageKind::settle, "settle", "excess"},
                             {StageKind::viscous_spread, "spread", "spread"},
                             {StageKind::feed, "feed", ""},
+                            {StageKind::fall_feed, "fall feed", ""},
                             {StageKind::writer, "writer", ""}};
 
 Design design_with_everything() {
@@ -60,14 +62,14 @@ TEST(StageKinds, AStageIsOfTheKindThatWasAskedFor) {
   const Design design = design_with_everything();
   int made = 0;
   for (const Known& known : kKnown) {
-    if (!phase_of(known.kind)) {
+    if (!is_stage(known.kind)) {
       EXPECT_THROW(make_stage(known.kind, design), std::logic_error) << known.name;
       continue;
     }
     EXPECT_EQ(make_stage(known.kind, design)->name(), known.name);
     ++made;
   }
-  EXPECT_EQ(made, 13);
+  EXPECT_EQ(made, 14);
 }
 
 TEST(StageKinds, WithoutFaultsAStageHoldsNothingForThem) { EXPECT_TRUE(std::is_empty_v<NoFaults>); }

@@ -22,8 +22,9 @@ namespace voxmelt::hwmodel {
 struct StageRun {
   int depth = 2;
   std::uint64_t stall_seed = 0;
-  std::int64_t cycles = 0;               // cycles of the last run
-  const state::Volume* sides = nullptr;  // tokens come with the side band `beside_wall` of this volume
+  std::int64_t cycles = 0;                 // cycles of the last run
+  const state::Volume* sides = nullptr;    // tokens come with the side band `beside_wall` of this volume
+  const state::BitPlane* falls = nullptr;  // cells that fall
 };
 
 // Runs one pass of `volume` through `stages` at `moment`.
@@ -36,8 +37,10 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
     channels.push_back(
         std::make_unique<CellFifo>("channel", static_cast<int>(i), shape.lanes, run.depth, run.stall_seed));
   HeatFifo feed("feed", 1000, shape.lanes, run.depth, run.stall_seed);
+  FallFifo falls("feed of pieces", 2000, shape.lanes, run.depth, run.stall_seed);
   for (std::size_t i = 0; i < stages.size(); ++i) {
     stages[i]->feed(feed);
+    stages[i]->feed_falls(falls);
     stages[i]->connect(*channels[i], *channels[i + 1]);
     stages[i]->begin_pass(moment, false);
   }
@@ -46,7 +49,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
   const bool fed = irradiance != nullptr && std::any_of(stages.begin(), stages.end(), [](const auto& stage) {
                      return stage->kind() == StageKind::exchange;
                    });
-  Place reading, feeding, writing;
+  Place reading, feeding, telling, writing;
   run.cycles = 0;
   while (writing.ordinal < shape.tokens()) {
     if (reading.ordinal < shape.tokens() && channels.front()->ready()) {
@@ -63,12 +66,21 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
                           : 0;
       feeding.next(shape);
     }
+    if (run.falls != nullptr && telling.ordinal < shape.tokens() && falls.ready()) {
+      UInt<1>* lanes = falls.put();
+      for (int lane = 0; lane < shape.lanes; ++lane) {
+        const int x = telling.x + lane;
+        lanes[lane] = x < shape.grid.x && run.falls->test(x, telling.y, telling.z) ? 1 : 0;
+      }
+      telling.next(shape);
+    }
     for (const auto& stage : stages) stage->cycle();
     if (channels.back()->valid()) {
       write_token(channels.back()->get(), shape, writing, result);
       writing.next(shape);
     }
     feed.commit();
+    falls.commit();
     for (const auto& channel : channels) channel->commit();
     if (++run.cycles > 1000 + 100 * shape.tokens() * static_cast<std::int64_t>(stages.size() + 8)) {
       ADD_FAILURE() << "the stages hang";

@@ -87,7 +87,7 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
     "mismatches": 0, "first_mismatch": null, "digest": "0000000000000abc",
     "passes": 2, "cycles": 200, "predicted_cycles": 160, "buffer_bits": 440, "channel_bits": 4032,
     "units": {"multipliers": 24, "dividers": 16, "random_blocks": 2},
-    "traffic_bits_per_cycle": {"read": 72.0, "written": 71.5, "irradiance": 64.25},
+    "traffic_bits_per_cycle": {"read": 72.0, "written": 71.5, "irradiance": 64.25, "pieces": 0.0},
     "simulated_cell_steps": 1000000, "seconds_model": 0.5,
     "stages": [
       {"name": "reader", "phase": "", "cascade": 0, "lag": 0, "moved_bits": 7200,

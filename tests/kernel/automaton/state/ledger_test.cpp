@@ -130,7 +130,7 @@ run::Simulation busy(Case which) {
   if (which == Case::paper_printed) p.flow.paper.reading = rule::EnergyReading::printed;
   p.flow.paper.beta = 40000;
   p.flow.paper.reheat = 4000;
-  p.material = {20000, 3000, 20000};
+  p.material = {20000, 3000};
   p.heat.enabled = true;
   p.heat.neighbours = 26;
   p.heat.weight_face = 6000;
@@ -166,7 +166,7 @@ TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
                          h.radiated, h.warmed, h.cooled, h.added, h.removed, h.rounded})
     EXPECT_NE(term, 0);
   const EnergyLedger& e = s.ledger().energy;
-  for (const Sum term : {e.melted, e.frozen, e.added, e.removed, e.reheated})
+  for (const Sum term : {e.melted, e.added, e.removed, e.reheated})
     EXPECT_EQ(term != 0, GetParam() != Case::viscous);
   for (const Sum term : {e.accelerated, e.dissipated}) EXPECT_EQ(term != 0, GetParam() == Case::paper);
   EXPECT_EQ(e.capped != 0, GetParam() == Case::paper_printed) << "by the text nothing needs to be cut";
