@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "hwmodel/explore/check.h"
 #include "hwmodel/explore/timing.h"
