@@ -27,10 +27,13 @@ class Sizer {
     sizing_.cycles = sizing_.deep_cycles = deep.cycles;
     for (const ChannelReport& channel : deep.channels) {
       sizing_.channels.push_back({channel.name, 0, channel.bits, channel.highest, 0});
-      // A channel with room for one token more than it ever held acts as the deep one.
-      run_.configuration.depths.push_back({channel.name, std::min(kMostDepth, channel.highest + 1)});
+      // A channel with room for one token more than it ever held acts as the deep one. One that held none, a
+      // feed of this run, says nothing of its depth: with two it passes a token in every cycle.
+      const int enough = channel.highest == 0 ? kOfIdle : channel.highest + 1;
+      run_.configuration.depths.push_back({channel.name, std::min(kMostDepth, enough)});
     }
-    for (ChannelDepth& channel : run_.configuration.depths) shrink(channel);
+    for (std::size_t i = 0; i < sizing_.channels.size(); ++i)
+      if (!idle(i)) shrink(run_.configuration.depths[i]);
     // Without a memory, more room never costs a cycle: a depth that once was too little stays too little when
     // others shrink. On a DRAM it may cost some, because requests then come in another order. So all channels
     // are tried until none yields.
@@ -40,6 +43,8 @@ class Sizer {
   }
 
  private:
+  static constexpr int kOfIdle = 2;
+  bool idle(std::size_t i) const { return sizing_.channels[i].highest == 0; }
   Timing time() {
     ++sizing_.runs;
     if (!memory_) return timing_of(run_, nullptr);
@@ -60,7 +65,7 @@ class Sizer {
       ChannelDepth& channel = run_.configuration.depths[i];
       SizedChannel& sized = sizing_.channels[i];
       sized.one_less = 0;
-      for (; channel.depth > 1; --channel.depth) {
+      for (; channel.depth > (idle(i) ? kOfIdle : 1); --channel.depth) {
         --channel.depth;
         const Timing less = time();
         ++channel.depth;

@@ -46,6 +46,7 @@ MachineReport prove(const std::string& name, Fault fault, bool on_dram) {
   options.steps.configuration = {.lanes = 4, .cascade = 2, .stall_seed = 1};
   if (is_of_tiles(fault)) options.steps.configuration = {.lanes = 1, .stall_seed = 1, .tile = 16};
   options.steps.configuration.coded = is_of_the_code(fault);
+  scene.parameters.pieces.fall = is_of_pieces(fault);
   options.picture.frames = 2;
   if (on_dram) options.picture.configuration.dram = load_memory("ddr4-2400", "test");
   return verify_machine(

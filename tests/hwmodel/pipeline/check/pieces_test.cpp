@@ -1,6 +1,5 @@
 // Pieces fall in the pipeline, in lock-step with the software: in any configuration, in tiles, on a DRAM, and
 // where pieces land in liquid. The closed forms know the stage and what its feed reads.
-#include <string>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
