@@ -169,7 +169,7 @@ Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volu
 std::shared_ptr<const state::BitPlane> Expectation::set_cells(const state::Volume& before) {
   state::Volume scratch = before;
   state::Ledger ledger;
-  if (melted_ == nullptr) melted_ = std::make_unique<scalar::Reference>(parameters_, before.grid);
+  melted_ = std::make_unique<scalar::Reference>(parameters_, before.grid);  // it has no patterns yet
   melted_->run(step::Phase::melt, step::Moment(step_number()), nullptr, scratch, ledger);
   return std::make_shared<const state::BitPlane>(melted_->set_cells());
 }

@@ -64,9 +64,9 @@ class FaceConduction final : public ConductionPass<kFacePairs, Faults> {
     if (finds_touched_) find_upright();
   }
 
-  void stand_beside(HeatWord& word) const {
-    word.beside_wall = finds_walls_;
-    word.touches = finds_touched_;
+  void stand_beside(HeatWord& cell) const {
+    cell.beside_wall = finds_walls_;
+    cell.touches = finds_touched_;
   }
 
   void find_upright() {
