@@ -129,8 +129,6 @@ ARGUMENTS = [
     (["digest", "wholly_unlike"], "no scene named 'wholly_unlike'; `voxmelt list scenes`", 2),
     (["verify", "bunny_small_viscous", "--set", "flow.viscous.stages_max=2"], "no stage that relaxes heads", 2),
     (["explore", "bunny_small_viscous", "--device", "zu7ev", "--set", "flow.viscous.stages_max=2"], "no stage that relaxes heads", 2),
-    (["verify", "lesson_freeze"], "no stage that freezes", 2),
-    (["explore", "lava_crust", "--device", "zu7ev", "--set", "material.freezing_point=1e-9"], "no stage that glows", 2),
     (["verify", "scene.toml", "--plant", "gremlin"], "gremlin", 2),
     (["verify", "scene.toml", "--plant", "vent-rate", "--quiet"], "nothing that this fault could change", 2),
     (["verify", "scene.toml", "--picture", "--plant", "vent-rate"], "--plant vent-rate: unknown in the ray caster", 2),

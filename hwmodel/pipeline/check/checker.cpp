@@ -80,6 +80,8 @@ const Expected* Checker::expected_of(const Channel& channel) {
   const Expected& expected = steps[step].at(channel.stage);
   if (channel.behind_stage) return &expected;
   read_ = {expected.before, expected.before, {}};  // before the first stage
+  // Memory keeps what is set for the later passes of a step. Their first stage hands it on.
+  if (!passes_[channel.entering - written_].pass.begins()) read_.bands.set = expected.bands.set;
   return &read_;
 }
 
@@ -111,6 +113,7 @@ void Checker::compare(const Channel& channel, const Cell* lanes) {
   for (int lane = cells; lane < shape_.lanes; ++lane) {
     Cell border;
     border.beside_wall = lanes[lane].beside_wall;  // no stage reads which sides the border has
+    border.touches = lanes[lane].touches;
     if (!compare(channel, *expected, border, lanes[lane], lane)) return;
   }
 }

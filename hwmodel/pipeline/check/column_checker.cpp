@@ -1,6 +1,7 @@
 #include "hwmodel/pipeline/check/column_checker.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "hwmodel/pipeline/check/wanted_cell.h"
@@ -27,7 +28,14 @@ class Bits {
 };
 
 bool holds_something(const Cell& cell) {
-  return !cell.air() || cell.amount > 0 || cell.energy > 0 || cell.heat > 0;
+  return !cell.air() || cell.amount > 0 || cell.energy > 0 || cell.heat > 0 || cell.set > 0;
+}
+
+// Returns what the code holds of a field. Between the passes of a step that freezes, the state of what is not
+// blocked tells if the place is set: 1, or 0 if it is not.
+std::int64_t coded(const CellWire& row, const Cell& cell, bool keeps_set) {
+  if (row.wire == Wire::state && keeps_set && !cell.blocked()) return cell.set;
+  return row.get(cell);
 }
 
 }  // namespace
@@ -56,6 +64,13 @@ bool ColumnChecker::differs(const Place& place, int lane, std::string_view field
 void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot) {
   const auto& left = checker_.being_written().left;
   if (checker_.mismatch() != nullptr || left == nullptr) return;
+  const auto& step = checker_.being_written().steps.back();
+  const std::shared_ptr<const state::BitPlane> set = step.empty() ? nullptr : step.back().bands.set;
+  const auto wanted_at = [&](int x, int y, int z) {
+    Cell cell = wanted_cell(*left, x, y, z);
+    if (set != nullptr) cell.set = set->test(x, y, z);
+    return cell;
+  };
   const Design& design = machine_.design();
   const int lanes = design.shape.lanes, cells = std::min(lanes, design.shape.grid.x - last.x);
   Bits bits(slot);
@@ -64,15 +79,15 @@ void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot)
   for (place.y = 0; place.y <= last.y; ++place.y) {
     bool holds = false;
     for (int lane = 0; lane < cells; ++lane)
-      holds |= holds_something(wanted_cell(*left, place.x + lane, place.y, place.z));
+      holds |= holds_something(wanted_at(place.x + lane, place.y, place.z));
     if (differs(place, 0, "is stored", holds ? 1 : 0, bits.at(place.y) ? 1 : 0)) return;
     if (!holds) continue;
     for (int lane = 0; lane < cells; ++lane) {
-      const Cell wanted = wanted_cell(*left, place.x + lane, place.y, place.z);
+      const Cell wanted = wanted_at(place.x + lane, place.y, place.z);
       bits.go_to(design.shape.grid.y + (stored * lanes + lane) * design.cell_bits());
       for (const CellWire& row : kCellWires)
         if (is_in_memory(row, design.paper(), design.hot()) &&
-            differs(place, lane, row.label, row.get(wanted), bits.take(row.bits)))
+            differs(place, lane, row.label, coded(row, wanted, design.keeps_set()), bits.take(row.bits)))
           return;
     }
     ++stored;

@@ -125,10 +125,16 @@ SideBands Expectation::bands_behind(StageKind stage, step::Moment moment, const 
       if (parameters_.heat.air) bands.axes = look_around();
       [[fallthrough]];
     case exchange:
+      if (parameters_.freezes()) bands.touched = look_around();
+      [[fallthrough]];
     case melt:  // the paper law's sides are older than what melts
     case walls:
+      if (stage == melt && parameters_.freezes()) bands.set = set_ = set_cells(before);
       if (paper && falls_by_sides()) bands.sides = look_around();
       bands.sides_of_blocked = true;
+      break;
+    case gravity:
+      if (paper) bands.set = set_;
       break;
     case pattern:
       bands.pattern = patterns(before);
@@ -136,10 +142,12 @@ SideBands Expectation::bands_behind(StageKind stage, step::Moment moment, const 
     case settle:
       bands.runs = shown_ = runs(moment, before);
       bands.shown = true;
+      bands.set = set_;
       if (moment.substep == 0) around_ = nullptr;  // the viscous law's sides are those after melt
       break;
     case viscous_spread:  // no sub-step melts anything
       bands.runs = shown_;
+      bands.set = set_;
       if (falls_by_sides()) bands.sides = look_around();
       break;
     default:
@@ -150,7 +158,7 @@ SideBands Expectation::bands_behind(StageKind stage, step::Moment moment, const 
 
 bool Expectation::falls_by_sides() const {
   const rule::Fall& fall = parameters_.flow.fall;
-  return fall.hang > 0 || fall.factor != fall.wall_factor;
+  return fall.hang > 0 || fall.factor != fall.wall_factor || parameters_.freezes();
 }
 
 Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volume& before) {
@@ -167,10 +175,19 @@ Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volu
   return result;
 }
 
+std::shared_ptr<const state::BitPlane> Expectation::set_cells(const state::Volume& before) {
+  state::Volume scratch = before;
+  state::Ledger ledger;
+  melted_ = std::make_unique<scalar::Reference>(parameters_, before.grid);  // it has no patterns yet
+  melted_->run(step::Phase::melt, step::Moment(step_number()), nullptr, scratch, ledger);
+  return std::make_shared<const state::BitPlane>(melted_->set_cells());
+}
+
 std::shared_ptr<const state::Field<std::uint8_t>> Expectation::patterns(const state::Volume& before) {
   state::Volume scratch = before;
   state::Ledger ledger;
-  scalar::Reference reference(parameters_, before.grid);
+  scalar::Reference fresh(parameters_, before.grid);
+  scalar::Reference& reference = melted_ != nullptr ? *melted_ : fresh;
   reference.run(step::Phase::spread, step::Moment(step_number()), nullptr, scratch, ledger);
   return std::make_shared<const state::Field<std::uint8_t>>(reference.pattern());
 }

@@ -59,6 +59,7 @@ class Expectation {
                      std::vector<Expected>& stages);
   SideBands bands_behind(StageKind stage, step::Moment moment, const state::Volume& before);
   Snapshot heat_up_to(StageKind stage, const state::Volume& before);
+  std::shared_ptr<const state::BitPlane> set_cells(const state::Volume& before);
   std::shared_ptr<const state::Field<std::uint8_t>> patterns(const state::Volume& before);
   std::shared_ptr<const ShownRuns> runs(step::Moment moment, const state::Volume& before);
   bool falls_by_sides() const;  // do the four sides of a cell matter to its fall?
@@ -68,10 +69,13 @@ class Expectation {
   std::string fast_name_;
   std::vector<StageKind> stages_;
   // The following belong to the present step. `around_` looks around the cells before the phase `heat` or,
-  // under the viscous law, before the spread. `shown_` has the runs of the present sub-step.
+  // under the viscous law, before the spread. `shown_` has the runs of the present sub-step. `melted_` has
+  // run the phase melt, and knows what is set.
   std::shared_ptr<const Surroundings> around_;
   std::shared_ptr<const ShownRuns> shown_;
   std::shared_ptr<const state::Volume> unfallen_;  // with pieces: the state before they fall
+  std::unique_ptr<scalar::Reference> melted_;
+  std::shared_ptr<const state::BitPlane> set_;
   bool begun_ = false;
   std::int64_t compared_cells_ = 0;
 };

@@ -49,7 +49,8 @@ Surroundings::Surroundings(const state::Volume& volume) : around_(volume.grid) {
           around += air(x, y, z - 1) || air(x, y, z + 1);
         }
         if (blocked(x - 1, y, z) || blocked(x + 1, y, z) || blocked(x, y, z - 1) || blocked(x, y, z + 1))
-          around |= 4;
+          around |= 4 | 8;
+        if (blocked(x, y - 1, z) || blocked(x, y + 1, z)) around |= 8;
         around_[volume.at(x, y, z)] = static_cast<std::uint8_t>(around);
       }
 }

@@ -42,6 +42,8 @@ class Surroundings {
   int exposed_axes(state::Slot at) const { return around_[at] & 3; }
   // Returns true if one of the four sides is blocked, or is the border.
   bool beside_wall(state::Slot at) const { return (around_[at] & 4) != 0; }
+  // Returns true if one of the six face neighbours is.
+  bool touches(state::Slot at) const { return (around_[at] & 8) != 0; }
 
  private:
   state::Field<std::uint8_t> around_;
@@ -51,7 +53,9 @@ class Surroundings {
 struct SideBands {
   std::shared_ptr<const state::Field<std::uint8_t>> pattern;  // directions
   std::shared_ptr<const Surroundings> axes, sides;
-  bool sides_of_blocked = false;  // do blocked cells have the bit of the sides, too?
+  bool sides_of_blocked = false;                // do blocked cells have the bit of the sides, too?
+  std::shared_ptr<const Surroundings> touched;  // what freezes there
+  std::shared_ptr<const state::BitPlane> set;
   std::shared_ptr<const ShownRuns> runs;
   bool shown = false;  // true: all that runs show; false: only which cells are in a run
 };

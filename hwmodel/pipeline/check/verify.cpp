@@ -246,6 +246,7 @@ class Lockstep::Run {
     std::size_t next = before + 2 * static_cast<std::size_t>(pass.substep);  // index in `step`
     std::shared_ptr<const state::Volume> now = pass.begins() ? step.front().before : step[next - 1].after;
     SideBands bands;
+    if (!pass.begins()) bands.set = step[next - 1].bands.set;
     int copy = -1;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       if (stages[i] == StageKind::settle) ++copy;

@@ -15,6 +15,8 @@ void add_bands(const SideBands& bands, int x, int y, int z, state::Slot at, Cell
   if (bands.axes != nullptr) cell.exposed_axes = bands.axes->exposed_axes(at);
   if (bands.sides != nullptr && (bands.sides_of_blocked || !cell.blocked()))
     cell.beside_wall = bands.sides->beside_wall(at);
+  if (bands.touched != nullptr) cell.touches = bands.touched->touches(at);
+  if (bands.set != nullptr) cell.set = bands.set->test(x, y, z);
   const ShownRuns::Run* run = bands.runs != nullptr ? bands.runs->at(x, y, z) : nullptr;
   if (run == nullptr) return;
   cell.in_run = 1;

@@ -32,6 +32,10 @@ class ConductionFaults : public Planted {
             Cell& cell) {
     if (pass.kind() != StageKind::conduction) return;
     miss_side(pass, Fault::side_missed, lane, cell);
+    if (cell.touches > 0 && cell.liquid() && pass.leaving().y == 0 && armed(pass, Fault::touch_untold)) {
+      cell.touches = 0;
+      strike_lane(pass, pass.leaving(), lane);
+    }
     const std::int64_t axes = std::popcount<unsigned>(word.exposed & 3);  // axes x and y
     if (axes == cell.exposed_axes || !pass.design().parameters.heat.air ||
         !armed(pass, Fault::axis_uncounted))

@@ -1,4 +1,5 @@
-// These faults let falls take or bring the wrong amount or heat, or wrap the counter of heights late.
+// These faults let falls take or bring the wrong amount or heat, let a set cell fall, or wrap the counter of
+// heights late.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +25,11 @@ class GravityFaults : public Planted {
     if (armed(stage, Fault::gravity_room)) {
       const std::int64_t ready = stage.released(low, high, high.beside_wall > 0, blocked_above);
       if (low.amount + ready <= kAmountMax) wrong = ready;
+    }
+    if (high.set > 0 && armed(stage, Fault::gravity_set_falls)) {
+      Falling free = high;
+      free.set = 0;
+      wrong = std::min(stage.released(low, free, high.beside_wall > 0, blocked_above), space);
     }
     if (wrong == flow) return;
     flow = wrong;

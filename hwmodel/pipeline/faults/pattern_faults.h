@@ -1,4 +1,5 @@
-// These faults open directions that should not be open, or use the random byte of the next cell.
+// These faults open directions that should not be open, let a set cell choose some, or use the random byte of
+// the next cell.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,11 @@ class PatternFaults : public Planted {
  public:
   using Planted::Planted;
   using Faulty = Pattern<PatternFaults>;
+
+  // `stands` tells if the cell could give, were it not set.
+  void allowed(const Faulty& stage, bool stands, Giver& giver) const {
+    if (stands && giver.set > 0 && armed(stage, Fault::pattern_set_gives)) stage.allow(giver);
+  }
 
   void offered(const Faulty& stage, const Giver& giver, Way way, const Giver& other, std::int64_t limit,
                bool open) {
@@ -33,6 +39,8 @@ class PatternFaults : public Planted {
     else if (armed(stage, Fault::pattern_diagonal_open) || armed(stage, Fault::pattern_margin))
       wrong |= lowest_bit(wrongly_open_[&word] & random_byte(stage, lane, 0));
     wrongly_open_.erase(&word);
+    if (word.set > 0 && cell.pattern != 0 && !plan().struck())
+      return strike_lane(stage, stage.leaving(), lane);
     if (wrong == cell.pattern) return;
     cell.pattern = wrong;
     strike_lane(stage, stage.leaving(), lane);

@@ -96,6 +96,10 @@ class SettleFaults : public Planted {
   // Spoils what a cell of a run shows. Every change is seen behind the smaller of two limits.
   void shown(const Faulty& stage, int lane, Cell& cell) {
     const std::int64_t sinks = note_bed(stage, lane, cell);
+    if (cell.set > 0 && armed(stage, Fault::settle_set_lost)) {
+      cell.set = 0;
+      return strike_lane(stage, stage.leaving(), lane);
+    }
     if (cell.in_run == 0) return;
     if (armed(stage, Fault::settle_run_untold))
       cell.in_run = 0;
@@ -184,7 +188,7 @@ class SettleFaults : public Planted {
     const Place place = stage.place_at(1);
     strike(stage, place.x + lane, place.y - static_cast<int>(word.last) + wrong, place.z);
     stage.downwards_.newest()[lane] = record;
-    word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0};
+    word = {SettleKind::outside, std::int64_t{top.amount}, 0, top.heat, 0, 0, 0, word.set};
   }
 
   // Lets a full run be shut that is not, for it has no ceiling; or a shut one not be, for it is not quite

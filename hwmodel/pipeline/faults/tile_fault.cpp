@@ -35,7 +35,7 @@ void TileFault::give_stale(const Place& place, const Pass& pass, const StateMemo
   const Shape& shape = pipeline_.design().shape;
   if (shape.owns(pass.tile, place.x)) return;
   std::vector<Cell> stale(shape.lanes);
-  read_token(memory.stale(), shape, place, stale.data());
+  read_token(memory.stale(), shape, place, stale.data(), memory.stale_set());
   const auto lane = static_cast<int>(std::mismatch(stale.begin(), stale.end(), lanes).first - stale.begin());
   if (lane == shape.lanes) return;
   std::copy(stale.begin(), stale.end(), lanes);

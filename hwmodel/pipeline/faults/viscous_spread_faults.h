@@ -1,6 +1,6 @@
-// These faults spoil the flows of the viscous spread. A flow moves inside the dead zone or between shut runs,
-// or uses the dither of the next axis, sub-step or layer. It flows as on a level bed, by the giver's amount
-// alone, or is lost on its way. Others let cells leave without their side bands.
+// These faults spoil the flows of the viscous spread. A flow moves inside the dead zone, between shut runs or
+// out of a set cell, or uses the dither of the next axis, sub-step or layer. It flows as on a level bed, by
+// the giver's amount alone, or is lost on its way. Others let cells leave without their side bands.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,11 @@ class ViscousSpreadFaults : public Planted {
               UInt<16>& amount) {
     const int axis = pair.axis;
     const bool closed = stage.closed(from, to), dead = stage.in_dead_zone(from, to, axis);
-    const bool rests = closed || dead;
+    const bool set = from.word->set > 0, rests = closed || dead || set;
     UInt<16> wrong = amount;
-    if ((dead && !closed && armed(stage, Fault::viscous_dead_zone)) ||
-        (closed && !dead && armed(stage, Fault::viscous_shut)))
+    if ((set && !closed && !dead && armed(stage, Fault::viscous_set_gives)) ||
+        (dead && !closed && !set && armed(stage, Fault::viscous_dead_zone)) ||
+        (closed && !dead && !set && armed(stage, Fault::viscous_shut)))
       wrong = stage.wanted(from, to, pair, stage.dither_of_axis(axis));
     if (!rests && armed(stage, Fault::viscous_dither))
       wrong = stage.wanted(from, to, pair, stage.dither_of_axis((axis + 1) % 4));

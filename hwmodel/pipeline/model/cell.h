@@ -39,6 +39,8 @@ struct Cell : StoredCell {
   UInt<2> exposed_axes;  // conduction -> exchange: axes on which a face neighbour is air
   UInt<8> pattern;       // pattern -> apply: directions that the cell gives to
   UInt<1> beside_wall;   // conduction, walls or viscous spread -> gravity: one of the four sides is blocked
+  UInt<1> touches;       // conduction -> melt: one of the six face neighbours is blocked
+  UInt<1> set;           // melt -> gravity, pattern, settle and viscous spread: the place gives nothing
   UInt<1> in_run;        // settle -> viscous spread -> gravity
   // The following go from settle to viscous spread, for cells in a run. The head is in 1/512 cell, and its
   // used width depends on the grid's height. The mobility is in 1/2^24 before it is limited, and its limit in

@@ -23,6 +23,8 @@ enum class Wire : std::uint8_t {
   exposed_axes,
   pattern,
   beside_wall,
+  touches,
+  set,
   in_run,
   head,
   mobility,
@@ -72,6 +74,11 @@ inline constexpr std::array kCellWires{
     cell_wire<&Cell::pattern>(Wire::pattern, "pattern", "pattern", false),
     // conduction, walls or viscous spread -> gravity
     cell_wire<&Cell::beside_wall>(Wire::beside_wall, "beside_wall", "beside a wall", false),
+    // conduction -> melt
+    cell_wire<&Cell::touches>(Wire::touches, "touches", "touches", false),
+    // melt -> gravity -> pattern, or melt -> settle -> viscous spread -> gravity. It shares the bits of the
+    // state: what is not blocked is air or liquid by its amount, so the two codes of these tell if it is set.
+    cell_wire<&Cell::set>(Wire::set, "set", "set", false),
     // settle -> viscous spread -> gravity
     cell_wire<&Cell::in_run>(Wire::in_run, "in_run", "in a run", false),
     // settle -> viscous spread

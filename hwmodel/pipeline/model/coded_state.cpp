@@ -25,7 +25,9 @@ std::uint64_t get_bits(const std::uint64_t* words, std::int64_t at, int bits) {
   return value & ones;
 }
 
-bool is_air(const Cell& cell) { return cell.air() && cell.amount == 0 && cell.energy == 0 && cell.heat == 0; }
+bool is_air(const Cell& cell) {
+  return cell.air() && cell.set == 0 && cell.amount == 0 && cell.energy == 0 && cell.heat == 0;
+}
 
 bool all_air(const Cell* lanes, int cells) { return std::all_of(lanes, lanes + cells, is_air); }
 
@@ -38,6 +40,18 @@ Cell air() {
 
 int cells_of(const Shape& shape, const Place& place) { return std::min(shape.lanes, shape.grid.x - place.x); }
 
+// A cell that is not blocked is air or liquid by its amount. So the codes of these two tell if it is set.
+State with_set(const Cell& cell) {
+  if (cell.blocked()) return cell.state;
+  return cell.set > 0 ? State::liquid : State::air;
+}
+
+void take_set(Cell& cell) {
+  if (cell.blocked()) return;
+  cell.set = cell.state == State::liquid;
+  cell.state = cell.amount > 0 ? State::liquid : State::air;
+}
+
 }  // namespace
 
 CodeLayout::CodeLayout(const Design& design)
@@ -47,14 +61,17 @@ CodeLayout::CodeLayout(const Design& design)
       cell_bits_(design.cell_bits()),
       columns_(std::int64_t{design.shape.grid_blocks()} * design.shape.grid.z),
       paper_(design.paper()),
-      hot_(design.hot()) {}
+      hot_(design.hot()),
+      keeps_set_(design.keeps_set()) {}
 
 void CodeLayout::put(const Cell& cell, std::uint64_t* slot, std::int64_t at) const {
   std::uint64_t value = 0;
   int bits = 0;
+  Cell stored = cell;
+  if (keeps_set_) stored.state = with_set(cell);
   for (const CellWire& row : kCellWires) {
     if (!is_in_memory(row, paper_, hot_)) continue;
-    const std::uint64_t number = row.get(cell);
+    const std::uint64_t number = row.get(stored);
     value |= number << bits;
     bits += row.bits;
   }
@@ -69,6 +86,7 @@ Cell CodeLayout::get(const std::uint64_t* slot, std::int64_t at) const {
     row.set(cell, value & ((std::uint64_t{1} << row.bits) - 1));
     value >>= row.bits;
   }
+  if (keeps_set_) take_set(cell);
   return cell;
 }
 
@@ -98,24 +116,25 @@ std::int64_t CodedState::moved_bits() const {
   return bits;
 }
 
-void CodedState::store(const state::Volume& volume) {
+void CodedState::store(const state::Volume& volume, const state::BitPlane* set) {
   Shape shape{volume.grid, layout_.lanes()};
   ColumnWriter writer(layout_);
   std::vector<Cell> lanes(shape.lanes);
   for (Place place = begin_of(shape, 0); place.ordinal < shape.tokens(); place.next(shape)) {
-    read_token(volume, shape, place, lanes.data());
+    read_token(volume, shape, place, lanes.data(), set);
     writer.put(lanes.data(), cells_of(shape, place), place, slot(layout_.column_of(place)), nullptr, 0);
   }
 }
 
-void CodedState::load(const Shape& shape, const Place& place, state::Volume& volume) const {
+void CodedState::load(const Shape& shape, const Place& place, state::Volume& volume,
+                      state::BitPlane* set) const {
   const std::uint64_t* from = slot(layout_.column_of(place));
   ColumnReader reader(layout_);
   std::vector<Cell> lanes(shape.lanes);
   Place at = place;
   for (at.y = 0; at.y < shape.grid.y; ++at.y) {
     reader.get(lanes.data(), cells_of(shape, at), at, from, nullptr, 0);
-    write_token(lanes.data(), shape, at, volume);
+    write_token(lanes.data(), shape, at, volume, set);
   }
 }
 

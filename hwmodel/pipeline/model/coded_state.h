@@ -5,6 +5,8 @@
 // behind another, each as wide as without the code. So a column may be written without knowing the others,
 // and its place does not depend on what it holds. Only bursts that hold something move. Lanes beyond the grid
 // are stored with their token, and mean nothing.
+//
+// Where a scene freezes, a step of several passes keeps which places are set. A set token is no token of air.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +46,7 @@ class CodeLayout {
  private:
   int lanes_, height_, blocks_, cell_bits_;
   std::int64_t columns_;
-  bool paper_, hot_;
+  bool paper_, hot_, keeps_set_;
 };
 
 // The reader asks for the bits of so many columns before it needs them.
@@ -82,9 +84,11 @@ class CodedState final : public StoredColumns {
 
   std::int64_t moved_bits() const;  // sum over all columns, in whole bursts
 
-  void store(const state::Volume& volume);  // does the host's part
+  // Does the host's part. `set` has the places that are set; null: none is.
+  void store(const state::Volume& volume, const state::BitPlane* set = nullptr);
   // Reads a column back as the host does it.
-  void load(const Shape& shape, const Place& place, state::Volume& volume) const;
+  void load(const Shape& shape, const Place& place, state::Volume& volume,
+            state::BitPlane* set = nullptr) const;
 
  private:
   CodeLayout layout_;

@@ -1,5 +1,5 @@
 // The exchange gives a cell heat from outside the volume. Radiation comes from the feed of irradiance that
-// runs beside the stream. Air acts at the exposed axes.
+// runs beside the stream. Air acts at the exposed axes. Where a scene glows, the cell glows there after it.
 #pragma once
 
 #include <algorithm>
@@ -20,21 +20,30 @@ class Exchange final : public Stage {
         faults_(faults),
         material_(design.parameters.material),
         radiation_(design.parameters.heat.radiation),
-        air_(design.parameters.heat.air) {
+        air_(design.parameters.heat.air),
+        glows_(air_ && design.parameters.heat.air_glow > 0) {
     const rule::Heat& heat = design.parameters.heat;
-    for (std::size_t axes = 1; axes < air_weight_.size(); ++axes)
+    for (std::size_t axes = 1; axes < air_weight_.size(); ++axes) {
       air_weight_[axes] = (heat.air_exchange * (3 + axes)) >> 2;
+      glow_weight_[axes] = (heat.air_glow * (3 + axes)) >> 2;
+    }
+    if (glows_) sky_ = fourth_power(heat.air_sky);
     if (air_) air_temperature_.assign(heat.air_temperature.begin(), heat.air_temperature.end());
   }
 
   void feed(HeatFifo& feed) override { feed_ = &feed; }
 
-  Wires side_bands() const override { return Wires().add(Wire::beside_wall, design().walls_in_conduction()); }
+  Wires side_bands() const override {
+    return Wires()
+        .add(Wire::beside_wall, design().walls_in_conduction())
+        .add(Wire::touches, design().freezes());
+  }
   std::vector<BufferCost> buffers() const override {
     if (!air_) return {};
     return {{"air temperatures", shape().grid.y, 1, 16}};
   }
-  Units units() const override { return {.multipliers = air_ ? 1 : 0}; }
+  // Two multipliers serve the fourth power of the temperature, and one each the rates of glow and of air.
+  Units units() const override { return {.multipliers = (air_ ? 1 : 0) + (glows_ ? 3 : 0)}; }
 
  private:
   friend Faults;
@@ -56,6 +65,7 @@ class Exchange final : public Stage {
       const std::int64_t received = radiation_ ? std::int64_t{irradiance[lane]} : 0;
       const std::int64_t axes = in[lane].exposed_axes;
       cell.heat = exchanged(in[lane], received, ambient, axes);
+      if (glows_ && axes > 0) cell.heat = glowed(cell.heat, axes);
       faults_.exchanged(*this, in[lane], irradiance, ambient, lane, cell);
     }
   }
@@ -67,13 +77,23 @@ class Exchange final : public Stage {
     const SInt<17> excess = ambient - temperature_of(h, material_);
     return raised(h, scale(excess, looked_up(air_weight_, axes), dither_));
   }
+  // Returns the heat of a cell that was exchanged with air, after it has glowed.
+  UInt<16> glowed(std::int64_t h, std::int64_t axes) const {
+    const SInt<17> excess = sky_ - fourth_power(temperature_of(h, material_));
+    return raised(h, scale(excess, looked_up(glow_weight_, axes), dither_));
+  }
+  static UInt<16> fourth_power(UInt<16> temperature) {
+    const UInt<16> square = temperature * temperature >> 16;
+    return square * square >> 16;
+  }
   static UInt<16> raised(std::int64_t h, std::int64_t gain) { return h + std::min(gain, kHeatMax - h); }
 
   [[no_unique_address]] Faults faults_;
   HeatFifo* feed_ = nullptr;
   const rule::Material material_;
-  const bool radiation_, air_;
-  std::array<UInt<16>, 4> air_weight_;  // index: exposed axes
+  const bool radiation_, air_, glows_;
+  std::array<UInt<16>, 4> air_weight_, glow_weight_;  // index: exposed axes
+  UInt<16> sky_;                                      // the fourth power of its temperature
   std::vector<UInt<16>> air_temperature_;
   UInt<16> dither_;
 };

@@ -13,15 +13,16 @@
 namespace voxmelt::hwmodel {
 
 struct Falling : StoredCell {
-  UInt<1> beside_wall, in_run;
+  UInt<1> beside_wall, in_run, set;
 };
 
 template <class Faults>
 class Gravity final : public Stage {
  public:
-  // Hanging drops depend on what is above the upper cell. Only they need one token of look-ahead.
+  // Hanging drops and set cells depend on what is above the upper cell. Only they need one token of
+  // look-ahead.
   explicit Gravity(const Design& design, Faults faults = {})
-      : Stage(StageKind::gravity, design, design.parameters.flow.fall.hang > 0 ? 2 : 1),
+      : Stage(StageKind::gravity, design, design.needs_ceilings() ? 2 : 1),
         faults_(faults),
         fall_(design.parameters.flow.fall),
         law_(design.parameters.flow.paper),
@@ -29,6 +30,8 @@ class Gravity final : public Stage {
         hot_(design.hot()),
         line_(design.shape.lanes, lag()) {}
 
+  // The paper's law spreads behind gravity: pattern must know which places are set.
+  Wires side_bands() const override { return Wires().add(Wire::set, paper_ && design().freezes()); }
   std::vector<BufferCost> buffers() const override {
     const int bits = design().cell_bits() + (design().needs_walls() ? 1 : 0) + (paper_ ? 0 : 1);
     return {{"cell register", lag(), lanes(), bits}};
@@ -48,7 +51,7 @@ class Gravity final : public Stage {
     if (in != nullptr)
       for (int lane = 0; lane < lanes(); ++lane) {
         const Cell& cell = in[lane];
-        newest[lane] = {cell.stored(), cell.beside_wall, cell.in_run};
+        newest[lane] = {cell.stored(), cell.beside_wall, cell.in_run, cell.set};
       }
     if (out == nullptr) return;
     dither_ = at(dithers_, lag());
@@ -69,7 +72,8 @@ class Gravity final : public Stage {
  private:
   friend Faults;
 
-  // `blocked_above` tells if the cell above the upper one is blocked. It matters only where drops hang.
+  // `blocked_above` tells if the cell above the upper one is blocked. It matters only where drops hang and
+  // cells are set.
   void move(Falling& low, Falling& high, bool blocked_above) {
     if (low.blocked() || high.blocked()) return;
     if (high.amount > 0 && low.amount < kOne && (paper_ || high.in_run == 0))
@@ -99,7 +103,8 @@ class Gravity final : public Stage {
 
   // Returns what the upper cell gives.
   std::int64_t released(const Falling& low, const Falling& high, bool beside_wall, bool blocked_above) const {
-    if (high.amount < fall_.hang && low.amount == 0 && (beside_wall || blocked_above)) return 0;
+    const bool hangs = high.amount < fall_.hang && low.amount == 0;
+    if ((high.set > 0 || hangs) && (beside_wall || blocked_above)) return 0;
     const std::int64_t part = scale(high.amount, beside_wall ? fall_.wall_factor : fall_.factor);
     return std::min<std::int64_t>(high.amount, UInt<17>(part + fall_.minimum));
   }
@@ -121,10 +126,11 @@ class Gravity final : public Stage {
     from.amount = from.amount - flow;
   }
 
-  static Cell leave(const Falling& word) {
+  Cell leave(const Falling& word) const {
     Cell cell;
     cell.stored() = word.stored();
     cell.settle_state();
+    if (paper_) cell.set = word.set;
     return cell;
   }
 

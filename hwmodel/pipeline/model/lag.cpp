@@ -18,8 +18,8 @@ Lag lag_of(StageKind kind, const Design& design) {
     case fall:        // the cell above
     case convection:  // the same
       return {0, 0, 1};
-    case gravity:  // the cell above; where films hang, also the one above that
-      return {0, 0, design.parameters.flow.fall.hang > 0 ? 2 : 1};
+    case gravity:  // the cell above; where films hang or cells are set, also the one above that
+      return {0, 0, design.needs_ceilings() ? 2 : 1};
     case settle:  // a column reversed twice, one token of look-ahead
       return {0, 2, 1};
     default:

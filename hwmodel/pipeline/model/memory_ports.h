@@ -106,7 +106,7 @@ class Writer {
     column_->put(lanes, std::min(shape_.lanes, shape_.grid.x - place_.x), place_, slot, code_fault_, passes_);
     if (!ends_column(shape_, place_)) return;
     coded_bits_ += CodeLayout::up(column_->bits());
-    memory.load(shape_, place_, memory_.written());
+    memory.load(shape_, place_, memory_.written(), memory_.written_set());
     if (watcher_ != nullptr) watcher_->column_written(place_, slot);
   }
   void write(const Cell* lanes) {
@@ -118,7 +118,7 @@ class Writer {
       if (column_)
         write_coded(lanes);
       else
-        write_token(lanes, shape_, place_, memory_.written());
+        write_token(lanes, shape_, place_, memory_.written(), memory_.written_set());
       for (int lane = 0; lane < shape_.lanes && place_.x + lane < shape_.grid.x; ++lane)
         open_.add(lanes[lane]);
     } else if (fault_ != nullptr) {
@@ -185,7 +185,7 @@ class Reader {
       if (column_)
         read_coded(lanes);
       else
-        read_token(memory_.read(), shape_, place_, lanes);
+        read_token(memory_.read(), shape_, place_, lanes, memory_.read_set());
       if (dram_ != nullptr) dram_->read(column_ ? column_->used() : 0, ends_column(shape_, place_), now);
       if (fault_ != nullptr) fault_->reads(passes_, place_, memory_, lanes);
       place_.next(shape_);

@@ -14,6 +14,8 @@ struct NoFaults {
   static void treated(auto&&...) {}
   static void exchanged(auto&&...) {}
   static void melted(auto&&...) {}
+  // Melt passes every cell that leaves before what is hot melts: some froze, and some are set.
+  static void cooled(auto&&...) {}
   // Conduction, walls and viscous spread pass the cell that leaves, with what it tells later stages.
   static void gave(auto&&...) {}
   // Conduction calls `conducted` after all fluxes of the token that came. Convection calls `rested` for a
@@ -25,7 +27,9 @@ struct NoFaults {
   static void released(auto&&...) {}
   static void fell(auto&&...) {}
   static void column_ended(auto&&...) {}
-  // Pattern passes a direction that was offered or not, and the cell with its pattern.
+  // Pattern passes a giver with its limits, a direction that was offered or not, and the cell with its
+  // pattern.
+  static void allowed(auto&&...) {}
   static void offered(auto&&...) {}
   static void drawn(auto&&...) {}
   // Apply passes what one cell gives another, and the energy of a cell to which all has come.

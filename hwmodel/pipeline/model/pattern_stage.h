@@ -20,6 +20,7 @@ struct Giver : StoredCell {
   UInt<8> pattern;  // directions, before the random byte takes some away
   // A neighbour that holds less than its limit is available. These are registers, and the first is no less.
   UInt<16> axis_limit, diagonal_limit;
+  UInt<1> set;  // in the bits of the state
 };
 
 template <class Faults>
@@ -61,6 +62,7 @@ class Pattern final : public Stage {
       const Giver* below = line_.tap(1);
       for (const int lane : each_lane()) {
         now[lane].stored() = in[lane].stored();
+        now[lane].set = in[lane].set;
         find_limits(now[lane], above_floor && below[lane].state == State::air);
       }
     }
@@ -89,7 +91,12 @@ class Pattern final : public Stage {
   // Finds the facts of a giver. Nothing is lower than a limit of 0.
   void find_limits(Giver& cell, bool air_below) const {
     cell.axis_limit = cell.diagonal_limit = 0;
-    if (cell.state != State::liquid || (law_.support && air_below)) return;
+    const bool stands = cell.state == State::liquid && !(law_.support && air_below);
+    if (stands && cell.set == 0) allow(cell);
+    faults_.allowed(*this, stands, cell);
+  }
+
+  void allow(Giver& cell) const {
     const bool energetic = cell.energy > law_.threshold;
     if (!energetic && law_.slump == 0) return;
     const std::int64_t limit = flow_.limit();

@@ -69,7 +69,9 @@ struct Pipeline::Machine {
 
   static StateMemory make_memory(const Design& design, const Configuration& c) {
     const CodeLayout layout(design);
-    return StateMemory(design.shape.tiled(), c.coded ? &layout : nullptr);
+    const std::optional<state::Grid> set =
+        design.keeps_set() ? std::optional(design.shape.grid) : std::nullopt;
+    return StateMemory(design.shape.tiled(), c.coded ? &layout : nullptr, set);
   }
 
   void make_blocks() {

@@ -38,6 +38,7 @@ struct SpreadWord {
   UInt<32> content;                             // amount x heat after them
   SInt<30> head;                                // head of the run, in its first cell
   UInt<1> west_blocked = 1, south_blocked = 1;  // the cells that came before it, beside it
+  UInt<1> set;                                  // it gives nothing
   // The following belong to a blocked cell.
   RunPace above;                     // pace of the run that begins in the next cell up
   UInt<SolidBed::kRiseBits> melted;  // rise of a solid's bed; an inert cell's follows from its amount
@@ -48,13 +49,16 @@ struct SpreadWord {
   UInt<14> rise() const { return ground == Ground::solid ? UInt<14>(melted) : rise_of_inert(amount); }
 
   // Returns the bits of a word. The two kinds share them.
-  static int bits(int head_bits, bool hot, bool walls) {
+  static int bits(int head_bits, bool hot, bool walls, bool freezes) {
     const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits + SolidBed::kRiseBits;
-    const int open = kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits + 2;
+    const int open =
+        kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits + 2 + (freezes ? 1 : 0);
     return std::max(blocked, open);
   }
-  // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, wall.
-  static int done_bits(bool hot, bool walls) { return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0); }
+  // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, wall, set.
+  static int done_bits(bool hot, bool walls, bool freezes) {
+    return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0) + (freezes ? 1 : 0);
+  }
 
  private:
   static constexpr int kDoneBits = 2 + 16;

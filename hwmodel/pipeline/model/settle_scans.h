@@ -27,16 +27,19 @@ struct SettleWord {
   UInt<16> top;     // amount of the uppermost cell of such a run (not after the second scan)
   UInt<16> mean;    // mean heat, with thermal viscosity
 
+  UInt<1> set;  // of the place, in scenes that freeze
+
   bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
   // After the second scan this tells where a record lies.
   bool lowest() const { return kind == SettleKind::first || kind == SettleKind::shut; }
 
   // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first.
-  static int bits(const RunWidths& widths, bool hot, bool thermal) {
-    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 16 : 0) : 0);
+  static int bits(const RunWidths& widths, bool hot, bool thermal, bool freezes) {
+    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 16 : 0) : 0) +
+           (freezes ? 1 : 0);
   }
-  static int bits_upwards(const RunWidths& widths, bool hot, bool thermal) {
-    return bits(widths, hot, thermal) + (hot ? 1 + 16 : 0);
+  static int bits_upwards(const RunWidths& widths, bool hot, bool thermal, bool freezes) {
+    return bits(widths, hot, thermal, freezes) + (hot ? 1 + 16 : 0);
   }
 };
 
@@ -72,7 +75,7 @@ class SumScan {
     } else if (was_in_run) {
       done = record(excess, hot, dither);
     }
-    held_ = {kind, cell.amount + up.amount, 0, up.into(cell.amount, cell.heat, dither), 0, 0, 0};
+    held_ = {kind, cell.amount + up.amount, 0, up.into(cell.amount, cell.heat, dither), 0, 0, 0, cell.set};
     add(cell, kind, hot);
     return done;
   }
@@ -88,8 +91,14 @@ class SumScan {
 
   SettleWord record(std::int64_t excess, bool hot, std::int64_t dither) const {
     const bool ordered = hot && ordered_ && excess <= 0;
-    SettleWord word{
-        held_.kind == SettleKind::first ? SettleKind::single : SettleKind::top, sum_, last_, 0, 0, 0, 0};
+    SettleWord word{held_.kind == SettleKind::first ? SettleKind::single : SettleKind::top,
+                    sum_,
+                    last_,
+                    0,
+                    0,
+                    0,
+                    0,
+                    held_.set};
     if (!hot) return word;
     word.heat = ordered ? held_.heat : mix(content_, sum_, dither);
     word.ordered = ordered;
@@ -136,14 +145,14 @@ class RecordScan {
         record_.kind = lowest;
         flow_ = {};
         level_ = std::int64_t{word.sum} - word.last * kOne;
-        return {SettleKind::inner, 0, 0, lower(word.top, word.heat, dither), 0, 0, 0};
+        return {SettleKind::inner, 0, 0, lower(word.top, word.heat, dither), 0, 0, 0, word.set};
       case SettleKind::inner:
-        return {SettleKind::inner, 0, 0, lower(word.sum, word.heat, dither), 0, 0, 0};
+        return {SettleKind::inner, 0, 0, lower(word.sum, word.heat, dither), 0, 0, 0, word.set};
       case SettleKind::first:
         return {record_.kind, record_.sum, record_.last, lower(word.sum, word.heat, dither), 0, 0,
-                record_.mean};
+                record_.mean, word.set};
       case SettleKind::single:
-        return {lowest, word.sum, word.last, word.heat, 0, 0, word.mean};
+        return {lowest, word.sum, word.last, word.heat, 0, 0, word.mean, word.set};
       default:
         return word;
     }
@@ -189,6 +198,7 @@ class ShowScan {
       settle(word, y, flow, pace, widths, cell);
     cell.state = State::liquid;
     cell.settle_state();
+    cell.set = word.set;
     if (!cell.in_run) return;
     cell.head = show_.head;
     cell.dead = show_.dead;

@@ -33,13 +33,15 @@ class Settle final : public Stage {
         upwards_(lanes(), height_) {}
 
   Wires side_bands() const override {
-    return {Wire::in_run, Wire::head, Wire::mobility, Wire::limit, Wire::dead, Wire::shut};
+    return Wires{Wire::in_run, Wire::head, Wire::mobility, Wire::limit, Wire::dead, Wire::shut}.add(
+        Wire::set, design().freezes());
   }
   int width_of(Wire wire) const override { return wire == Wire::head ? widths_.head : Stage::width_of(wire); }
   std::vector<BufferCost> buffers() const override {
-    const bool thermal = flow_.thermal_viscosity;
-    return {downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal)),
-            upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal))};
+    const bool thermal = flow_.thermal_viscosity, freezes = design().freezes();
+    return {
+        downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal, freezes)),
+        upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal, freezes))};
   }
 
   // Multipliers serve depth squared, the mobility in two parts, and four its change by

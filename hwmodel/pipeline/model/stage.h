@@ -36,10 +36,15 @@ struct Design {
 
   bool paper() const { return parameters.flow.law == rule::Law::paper; }
   bool hot() const { return parameters.heat.enabled; }
+  bool freezes() const { return parameters.freezes(); }
   bool needs_walls() const {  // does falling depend on the four sides of a cell?
     const rule::Fall& fall = parameters.flow.fall;
-    return fall.hang > 0 || fall.wall_factor != fall.factor;
+    return fall.hang > 0 || fall.wall_factor != fall.factor || freezes();
   }
+  // Does falling depend on the cell above?
+  bool needs_ceilings() const { return parameters.flow.fall.hang > 0 || freezes(); }
+  // Memory keeps which places are set between the passes of one step.
+  bool keeps_set() const { return freezes() && !paper(); }
   // The paper law uses the sides before melt, which conduction has in its window. Without heat nothing melts,
   // and a separate stage finds them.
   bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
@@ -168,7 +173,7 @@ class Stage {
   int tile_at(std::int64_t delay) const { return passes_[coming_ - (of_last_pass(delay) ? 1 : 0)].tile; }
   // Returns the wires that the stage adds to a cell for later stages.
   virtual Wires side_bands() const { return {}; }
-  virtual int width_of(Wire wire) const { return row_of(wire).bits; }
+  virtual int width_of(Wire wire) const { return wire == Wire::set ? 0 : row_of(wire).bits; }
   // Returns the bits of a lane that leaves the stage, side bands included.
   virtual int output_bits() const {
     int bits = design_.cell_bits();

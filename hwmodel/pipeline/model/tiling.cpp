@@ -51,9 +51,6 @@ bool host_sees_each_step(const rule::Parameters& parameters) {
 }
 
 std::string unmodelled_rule(const rule::Parameters& parameters) {
-  if (parameters.freezes()) return "material.freezing_point: the pipeline has no stage that freezes";
-  if (parameters.heat.air && parameters.heat.air_glow > 0)
-    return "heat.air.glow: the pipeline has no stage that glows";
   if (parameters.flow.law == rule::Law::paper || !parameters.flow.viscous.relaxes()) return {};
   return "flow.viscous.stages_max above 1: the pipeline has no stage that relaxes heads";
 }

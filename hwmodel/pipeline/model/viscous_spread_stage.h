@@ -38,10 +38,13 @@ class ViscousSpread final : public Stage {
         south_(now_) {}
 
   // Only the last lane of a token has a pair left (its diagonal to the next block) after one plane.
-  Wires side_bands() const override { return Wires{Wire::in_run}.add(Wire::beside_wall, walls_); }
+  Wires side_bands() const override {
+    return Wires{Wire::in_run}.add(Wire::beside_wall, walls_).add(Wire::set, design().freezes());
+  }
   std::vector<BufferCost> buffers() const override {
-    const std::int64_t open = SpreadWord::bits(head_bits_, hot_, walls_);
-    const std::int64_t done = SpreadWord::done_bits(hot_, walls_);
+    const bool freezes = design().freezes();
+    const std::int64_t open = SpreadWord::bits(head_bits_, hot_, walls_, freezes);
+    const std::int64_t done = SpreadWord::done_bits(hot_, walls_, freezes);
     const std::int64_t column = shape().column(), between = shape().plane() - column;
     std::vector<BufferCost> costs{{"column memory", column, lanes(), open}};
     if (between > 0) costs.push_back({"plane memory", between, lanes(), open});
@@ -128,6 +131,7 @@ class ViscousSpread final : public Stage {
       return;
     }
     word.ground = cell.in_run ? Ground::run : Ground::outside;
+    word.set = cell.set;
     word.present = cell.amount;
     if (hot_) word.content = cell.amount * cell.heat;
     RunReader& reader = now_[lane].reader;
@@ -206,7 +210,7 @@ class ViscousSpread final : public Stage {
   // Lets liquid flow from the cell with the higher head.
   void flow(const SeenCell& from, const SeenCell& to, const SpreadPair& pair) {
     if (!from.word->runs()) return;
-    const bool rests = closed(from, to) || in_dead_zone(from, to, pair.axis);
+    const bool rests = from.word->set > 0 || closed(from, to) || in_dead_zone(from, to, pair.axis);
     UInt<16> amount = rests ? 0 : wanted(from, to, pair, dither_of_axis(pair.axis));
     faults_.wanted(*this, from, to, pair, amount);
     if (amount == 0) return;
@@ -287,6 +291,7 @@ class ViscousSpread final : public Stage {
     cell.settle_state();
     cell.in_run = word.runs();
     cell.beside_wall = word.beside_wall;
+    cell.set = word.set;
   }
 
   [[no_unique_address]] Faults faults_;

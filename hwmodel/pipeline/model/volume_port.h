@@ -36,14 +36,16 @@ inline State state_at(const state::Volume& volume, int x, int y, int z) {
   return volume.liquid.test(x, y, z) ? State::liquid : State::air;
 }
 
-// Reads a token. Lanes beyond the grid are border.
-inline void read_token(const state::Volume& volume, const Shape& shape, const Place& place, Cell* lanes) {
+// Reads a token. Lanes beyond the grid are border. `set` has the places that are set; null: none is.
+inline void read_token(const state::Volume& volume, const Shape& shape, const Place& place, Cell* lanes,
+                       const state::BitPlane* set = nullptr) {
   for (int lane = 0; lane < shape.lanes; ++lane) {
     lanes[lane] = {};
     const int x = place.x + lane;
     if (x >= shape.grid.x) continue;
     const state::Slot slot = volume.at(x, place.y, place.z);
     lanes[lane].state = state_at(volume, x, place.y, place.z);
+    if (set != nullptr) lanes[lane].set = set->test(x, place.y, place.z);
     read_numbers(volume, slot, lanes[lane]);
   }
 }
@@ -56,9 +58,12 @@ inline void write_cell(const Cell& cell, int x, int y, int z, state::Volume& vol
   std::apply([&](const auto&... number) { (number.write(cell, volume, slot), ...); }, kMemoryNumbers);
 }
 
-inline void write_token(const Cell* lanes, const Shape& shape, const Place& place, state::Volume& volume) {
-  for (int lane = 0; lane < shape.lanes && place.x + lane < shape.grid.x; ++lane)
+inline void write_token(const Cell* lanes, const Shape& shape, const Place& place, state::Volume& volume,
+                        state::BitPlane* set = nullptr) {
+  for (int lane = 0; lane < shape.lanes && place.x + lane < shape.grid.x; ++lane) {
     write_cell(lanes[lane], place.x + lane, place.y, place.z, volume);
+    if (set != nullptr) set->set(place.x + lane, place.y, place.z, lanes[lane].set > 0);
+  }
 }
 
 }  // namespace voxmelt::hwmodel

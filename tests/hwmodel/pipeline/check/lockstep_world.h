@@ -85,6 +85,7 @@ inline Start crop(const Start& whole, int side) {
 inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) {
   worlds::Random random(seed * 6151 + (law == rule::Law::paper ? 3 : 4));
   rule::Parameters parameters = worlds::hostile_parameters(random, law, grid);
+  worlds::may_freeze(random, parameters);
   state::Volume volume = worlds::hostile_volume(random, parameters, grid);
   return {"hostile " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
@@ -93,6 +94,7 @@ inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) 
 inline Start vault_start(std::uint64_t seed, state::Grid grid) {
   worlds::Random random(seed * 6151 + 5);
   rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+  worlds::may_freeze(random, parameters);
   state::Volume volume(grid);
   worlds::put_vaults(random, volume, parameters.heat.enabled);
   return {"vaults " + std::to_string(seed), std::move(parameters), std::move(volume), 0};

@@ -59,11 +59,12 @@ class Odd final : public Stage {
   Strange strange_;
 };
 
-// Nothing melts in a world without matter, so `melt` only hands on.
+// Nothing melts in a world without matter, and where nothing freezes, so `melt` only hands on.
 Start empty_start() {
   Start start = start_with_sides(rule::Law::paper, true, {6, 3, 3});
   start.parameters.vents.clear();
   start.parameters.drains.clear();
+  start.parameters.material.freezing_point = 0;
   start.volume = state::Volume({6, 3, 3});
   return start;
 }
@@ -98,6 +99,8 @@ TEST(Pointing, EveryBandIsComparedBehindTheStageThatMakesIt) {
       {"pattern", [](Cell& cell) { cell.pattern = 1; }},
       {"exposed axes", [](Cell& cell) { cell.exposed_axes = 1; }},
       {"beside a wall", [](Cell& cell) { cell.beside_wall = 1 - cell.beside_wall; }},
+      {"touches", [](Cell& cell) { cell.touches = 1; }},
+      {"set", [](Cell& cell) { cell.set = 1; }},
       {"in a run", [](Cell& cell) { cell.in_run = 1; }},
       {"head", [](Cell& cell) { cell.head = 1; }},
       {"limit", [](Cell& cell) { cell.limit = 1; }},

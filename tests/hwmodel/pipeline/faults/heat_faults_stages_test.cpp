@@ -28,7 +28,7 @@ std::map<std::string, int> strikes(const Planted& planted, int count) {
     worlds::Random random(static_cast<std::uint64_t>(world) * 7919 + 5);
     const state::Grid grid{random.between(1, 12), random.between(1, 9), random.between(1, 6)};
     const rule::Law law = random.any({rule::Law::paper, rule::Law::viscous});
-    const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    const Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
     FaultPlan plan(planted.fault, random.one_in(2) ? 0 : 1);
     Stages stages;
     planted.make(design, planted_stages(plan), stages);
@@ -79,11 +79,13 @@ TEST(HeatFaults, ConvectionAndExchange) {
   expect_struck({Fault::convection_downwards, step::Phase::heat, heat_of, {"convection"}});
   expect_struck({Fault::irradiance_lane, step::Phase::heat, heat_of, {"exchange"}});
   expect_struck({Fault::air_axis_missed, step::Phase::heat, heat_of, {"exchange"}});
+  expect_struck({Fault::glow_square, step::Phase::heat, heat_of, {"exchange"}});
 }
 
 TEST(HeatFaults, Melt) {
   expect_struck({Fault::melt_stuck, step::Phase::melt, melt_of, {"melt"}});
   expect_struck({Fault::melt_energy, step::Phase::melt, melt_of, {"melt"}});
+  expect_struck({Fault::freeze_film, step::Phase::melt, melt_of, {"melt"}});
 }
 
 TEST(HeatFaults, BufferBit) {

@@ -39,7 +39,7 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
   for (int world = 0; world < worlds; ++world) {
     worlds::Random random(static_cast<std::uint64_t>(world) * 7919 + 3);
     const state::Grid grid{random.between(1, 20), random.between(1, 8), random.between(1, 6)};
-    const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    const Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
     run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                                worlds::implementation("reference"));
     FaultPlan plan(fault, static_cast<std::uint32_t>(random.below(2)));
@@ -52,10 +52,12 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
       simulation.begin_step();
       state::Volume unmelted = simulation.volume();
       if (phase == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
+      state::BitPlane set(grid);
+      run.set = &set;
       for (const step::Phase each : simulation.phases()) {
         const step::Moment moment = simulation.moment();
         const state::Volume before = simulation.volume();
-        if (each == step::Phase::melt) unmelted = before;
+        if (each == step::Phase::melt) set = set_places(design.parameters, unmelted = before);
         simulation.run_phase(each);
         if (each != phase || plan.struck()) continue;
         const state::Volume result = run_stages(design, stages, moment, nullptr, before, run);

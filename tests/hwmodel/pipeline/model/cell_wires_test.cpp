@@ -18,8 +18,8 @@ namespace {
 TEST(CellWires, WidthsAreThoseOfThePage) {
   const std::vector<std::pair<std::string, int>> page{
       {"state", 2},   {"amount", 16},     {"energy", 16}, {"heat", 16}, {"exposed_axes", 2},
-      {"pattern", 8}, {"beside_wall", 1}, {"in_run", 1},  {"head", 30}, {"mobility", 22},
-      {"limit", 14},  {"dead", 25},       {"shut", 1}};
+      {"pattern", 8}, {"beside_wall", 1}, {"touches", 1}, {"set", 1},   {"in_run", 1},
+      {"head", 30},   {"mobility", 22},   {"limit", 14},  {"dead", 25}, {"shut", 1}};
   ASSERT_EQ(kCellWires.size(), page.size());
   for (std::size_t i = 0; i < page.size(); ++i) {
     EXPECT_EQ(kCellWires[i].name, page[i].first);
@@ -55,6 +55,8 @@ TEST(CellWires, TheyAreAllThatACellHas) {
   from.exposed_axes = 1;
   from.pattern = 77;
   from.beside_wall = 1;
+  from.touches = 1;
+  from.set = 1;
   from.in_run = 1;
   from.head = -5;
   from.mobility = 6;

@@ -7,8 +7,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Checks, behind a phase, that its cells bring no side bands, except the bit that conduction hands to
-// gravity.
+// Checks, behind a phase, that its cells bring no side bands, except the bits that conduction hands to
+// gravity and to melt.
 class NoSideBands final : public Stage {
  public:
   NoSideBands(const Design& design, StageKind before) : Stage(before, design, 0) {}
@@ -22,6 +22,7 @@ class NoSideBands final : public Stage {
       out[lane].heat = in[lane].heat;
       out[lane].state = in[lane].state;
       if (design().walls_in_conduction()) out[lane].beside_wall = in[lane].beside_wall;
+      if (design().freezes()) out[lane].touches = in[lane].touches;
       if (out[lane] != in[lane]) ADD_FAILURE() << "a side-band leaves " << name();
     }
   }

@@ -33,7 +33,7 @@ TEST(HeatStages, MeltIsTheReference) {
 int compare_size(const state::Grid& grid, std::uint64_t seed, step::Phase phase, auto&& make) {
   worlds::Random random(seed);
   const rule::Law law = random.any({rule::Law::paper, rule::Law::viscous});
-  const Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+  const Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
   Stages stages;
   make(design, make_stage, stages);
   if (stages.empty()) return 0;
@@ -72,7 +72,7 @@ TEST(HeatStages, LargeGrid) {
     for (const int lanes : {1, 16}) {
       worlds::Random random(99);
       const state::Grid grid{65, 64, 9};
-      Design design{worlds::hostile_parameters(random, law, grid), {grid, lanes}};
+      Design design{freezing_parameters(random, law, grid), {grid, lanes}};
       rule::Heat& heat = design.parameters.heat;
       heat.enabled = heat.air = heat.radiation = true;
       heat.neighbours = 26;

@@ -24,10 +24,10 @@ void PrintTo(const Memory& memory, std::ostream* out) {
 }
 
 // Checks every stage that has memories. Its memories must hold as much as it delays.
-std::map<StageKind, Memory> memories_of(const std::string& scene_name) {
+std::map<StageKind, Memory> memories_of(const std::string& scene_name, bool freezes = false) {
   constexpr int kLanes = 4;
-  const scene::Scene scene =
-      scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
+  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
+  if (freezes) scene.parameters.material.freezing_point = 1;
   const Shape shape{scene.initial.grid, kLanes};
   std::map<StageKind, Memory> memories;
   for (const StageReport& stage : Pipeline(scene.parameters, shape.grid, {kLanes, 1, 4, 0}).stages()) {
@@ -64,6 +64,16 @@ TEST(MemoryCost, OfTheViscousLawWithHeat) {
             (std::map<StageKind, Memory>{{StageKind::conduction, {50, 50}},
                                          {StageKind::settle, {0, 115}},
                                          {StageKind::viscous_spread, {109, 176}}}));
+}
+
+// The same scene, and freezing: a bit more in the words of conduction (touches), of both reversers of settle
+// and of spread (set; all of its memories hold one of each four cells twice, so beside the plane 2 and no
+// more).
+TEST(MemoryCost, OfFreezing) {
+  const std::map<StageKind, Memory> freezing = memories_of("cello_viscous", true);
+  EXPECT_EQ(freezing.at(StageKind::conduction), (Memory{50 + 1, 50 + 1}));
+  EXPECT_EQ(freezing.at(StageKind::settle), (Memory{0, 115 + 2}));
+  EXPECT_EQ(freezing.at(StageKind::viscous_spread), (Memory{109 + 1, 176 + 2}));
 }
 
 TEST(MemoryCost, OfTheAirOneTemperaturePerHeight) {

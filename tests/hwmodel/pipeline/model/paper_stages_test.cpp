@@ -38,7 +38,7 @@ TEST(PaperStages, EverySizeOfGrid) {
         const state::Grid grid = axis == 0   ? state::Grid{size, other, third}
                                  : axis == 1 ? state::Grid{other, size, third}
                                              : state::Grid{other, third, size};
-        const Design design{worlds::hostile_parameters(random, rule::Law::paper, grid), {grid, lanes}};
+        const Design design{freezing_parameters(random, rule::Law::paper, grid), {grid, lanes}};
         run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                                    worlds::implementation("reference"));
         Stages falling, spreading;
@@ -47,9 +47,11 @@ TEST(PaperStages, EverySizeOfGrid) {
         StageRun run{2, static_cast<std::uint64_t>(runs % 3), 0};
         state::Volume unmelted(grid);
         if (design.walls_in_conduction()) run.sides = &unmelted;
+        state::BitPlane set(grid);
+        run.set = &set;
         for (std::uint32_t step = 0; step < 3; ++step) {
           worlds::step_by_phase(simulation, [&, before = simulation.volume()](step::Phase phase) mutable {
-            if (phase == step::Phase::melt) unmelted = before;
+            if (phase == step::Phase::melt) set = set_places(design.parameters, unmelted = before);
             const bool falls = phase == step::Phase::gravity;
             if (falls || phase == step::Phase::spread) {
               const state::Volume result =
@@ -77,6 +79,10 @@ TEST(PaperStages, GravityFaultsStrikeWhereTheySay) {
     SCOPED_TRACE(static_cast<int>(fault));
     expect_strikes(rule::Law::paper, step::Phase::gravity, fault, make_fall, 200, 3, 40);
   }
+}
+
+TEST(PaperStages, ASetCellFallsWhereTheFaultSays) {
+  expect_strikes(rule::Law::paper, step::Phase::gravity, Fault::gravity_set_falls, make_fall, 400, 3, 20);
 }
 
 TEST(PaperStages, SpreadFaultsStrikeWhereTheySay) {

@@ -1,6 +1,6 @@
-// Conduction (or, without heat, the stage `walls`) writes a bit for cells that stand beside a wall. The bit
-// is the state's at the begin of the step, on every size of grid and number of lanes, and reaches gravity's
-// input.
+// Conduction (or, without heat, the stage `walls`) writes a bit for cells that stand beside a wall, and where
+// a scene freezes one for those that touch something, for melt. The former bit is the state's at the begin of
+// the step, on every size of grid and number of lanes, and reaches gravity's input.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +19,7 @@ class Probe final : public Stage {
  public:
   explicit Probe(const Design& design) : Stage(StageKind::melt, design, 0) {}
   const state::Volume* volume = nullptr;
+  bool before_melt = false;
   std::int64_t seen = 0;
 
  protected:
@@ -28,6 +29,8 @@ class Probe final : public Stage {
       const int x = came().x + lane, y = came().y, z = came().z;
       const bool bit = in[lane].beside_wall;
       EXPECT_EQ(bit, stands_beside_wall(*volume, x, y, z)) << x << ", " << y << ", " << z;
+      const bool touches = in[lane].touches, freezes = before_melt && design().freezes();
+      EXPECT_EQ(touches, freezes && touches_something(*volume, x, y, z)) << x << ", " << y << ", " << z;
       ++seen;
     }
   }
@@ -58,6 +61,7 @@ void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, T
   heat.air = heat.radiation = true;
   heat.air_temperature.assign(static_cast<std::size_t>(grid.y), 40000);
   design.parameters.material = {30000, 0};
+  if (random.one_in(2)) design.parameters.material.freezing_point = 30000;
   const state::Volume start = worlds::hostile_volume(random, design.parameters, grid);
 
   Stages stages;
@@ -66,6 +70,7 @@ void run_probes(worlds::Random& random, state::Grid grid, int lanes, bool hot, T
   const auto probe = [&]() {
     auto made = std::make_unique<Probe>(design);
     made->volume = &start;
+    made->before_melt = stages.back()->kind() != StageKind::melt;
     probes.push_back(made.get());
     stages.push_back(std::move(made));
   };
@@ -129,6 +134,30 @@ TEST(SidesStages, FromHeatToGravityIsTheReferences) {
   };
   for (const std::uint64_t seed : {0u, 5000u, 90000u})
     expect_phases(rule::Law::paper, step::Phase::heat, step::Phase::gravity, make_stages, 300, 3, seed);
+}
+
+// A scene that does not freeze has no bit of it. One that does has one up to melt, those of the sides, and a
+// second token in gravity. A set cell takes no bit of its own.
+TEST(SidesStages, WhatFreezingTakes) {
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
+    Design plain{{}, {{4, 3, 2}, 2}};
+    plain.parameters.flow.law = law;
+    plain.parameters.flow.fall.wall_factor = 1;  // sides count in both
+    rule::Heat& heat = plain.parameters.heat;
+    heat.enabled = heat.radiation = true;
+    heat.neighbours = 26;
+    heat.convection = 1;
+    Design freezes = plain;
+    freezes.parameters.material.freezing_point = 1;
+    const Stages without = make_step(plain), with = make_step(freezes);
+    ASSERT_EQ(without.size(), with.size());
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      const bool heats = phase_of(with[i]->kind()) == step::Phase::heat;
+      EXPECT_EQ(with[i]->output_bits(), without[i]->output_bits() + (heats ? 1 : 0)) << with[i]->name();
+      EXPECT_EQ(without[i]->lag() + (with[i]->kind() == StageKind::gravity ? 1 : 0), with[i]->lag());
+      EXPECT_EQ(without[i]->units().multipliers, with[i]->units().multipliers);
+    }
+  }
 }
 
 // A scene that needs no sides gets none: no bit in the words, and none in the channels.

@@ -14,6 +14,7 @@
 
 #include "hwmodel/pipeline/model/stages.h"
 #include "hwmodel/pipeline/model/volume_port.h"
+#include "tests/hwmodel/pipeline/model/freezing.h"
 #include "tests/hwmodel/pipeline/model/sides.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
@@ -24,6 +25,7 @@ struct StageRun {
   std::uint64_t stall_seed = 0;
   std::int64_t cycles = 0;                 // cycles of the last run
   const state::Volume* sides = nullptr;    // tokens come with the side band `beside_wall` of this volume
+  const state::BitPlane* set = nullptr;    // and with these places set
   const state::BitPlane* falls = nullptr;  // cells that fall
 };
 
@@ -49,12 +51,14 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
   const bool fed = irradiance != nullptr && std::any_of(stages.begin(), stages.end(), [](const auto& stage) {
                      return stage->kind() == StageKind::exchange;
                    });
+  const bool cools = design.freezes() && stages.front()->kind() == StageKind::melt;
   Place reading, feeding, telling, writing;
   run.cycles = 0;
   while (writing.ordinal < shape.tokens()) {
     if (reading.ordinal < shape.tokens() && channels.front()->ready()) {
       Cell* lanes = channels.front()->put();
-      read_token(volume, shape, reading, lanes);
+      read_token(volume, shape, reading, lanes, run.set);
+      if (cools) mark_touches(volume, shape, reading, lanes);
       if (run.sides != nullptr) mark_walls(*run.sides, shape, reading, lanes);
       reading.next(shape);
     }
@@ -107,7 +111,7 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
         random.one_in(3) ? state::Grid{random.any({1, 2, 3, 4, 5, 15, 16, 17, 33}), random.any({1, 2, 3, 9}),
                                        random.any({1, 2, 5})}
                          : state::Grid{random.between(1, 14), random.between(1, 14), random.between(1, 14)};
-    Design design{worlds::hostile_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
     run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                                worlds::implementation("reference"));
     const std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>(1);
@@ -124,9 +128,11 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
       simulation.begin_step();
       state::Volume before = simulation.volume(), unmelted = before;
       if (first == step::Phase::gravity && design.walls_in_conduction()) run.sides = &unmelted;
+      state::BitPlane set(grid);
+      run.set = first > step::Phase::melt ? &set : nullptr;
       for (const step::Phase each : simulation.phases()) {
         const step::Moment moment = simulation.moment();
-        if (each == step::Phase::melt) unmelted = simulation.volume();
+        if (each == step::Phase::melt) set = set_places(design.parameters, unmelted = simulation.volume());
         if (each == first) before = simulation.volume();
         simulation.run_phase(each);
         if (each != last || stages.empty()) continue;

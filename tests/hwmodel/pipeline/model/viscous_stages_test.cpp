@@ -100,6 +100,7 @@ void expect_steps(ViscousWorld& world, int count, std::uint64_t stall_seed, Shut
       if (phase == Phase::excess) start = before;
       if (phase != Phase::spread) return;
       if (pairs != nullptr) pairs->count(world, world.moment, start);
+      run.set = &world.set;
       const state::Volume found = run_stages(world.design, stages, world.moment, nullptr, start, run);
       const state::Grid g = before.grid;
       ASSERT_EQ(worlds::difference(world.simulation.volume(), found), "")
@@ -142,7 +143,7 @@ TEST(ViscousStages, BoundsOfTheRules) {
     const bool deep = random.one_in(4);
     const state::Grid grid{random.between(2, 6), deep ? random.between(64, 90) : random.between(2, 8),
                            random.between(1, 3)};
-    rule::Parameters parameters = worlds::hostile_parameters(random, rule::Law::viscous, grid);
+    rule::Parameters parameters = freezing_parameters(random, rule::Law::viscous, grid);
     parameters.flow.viscous.mobility = random.any<std::uint64_t>({4096, 28672, 126976, 19088744, 1908874400});
     parameters.flow.viscous.yield = static_cast<std::uint32_t>(random.any({0, 131, 40000}));
     parameters.vents.clear();
@@ -239,7 +240,7 @@ std::vector<bool> in_runs(const state::Volume& v) {
 }
 
 TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
-  int runs = 0, walls = 0;
+  int runs = 0, walls = 0, set = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     worlds::Random random(seed);
     ViscousWorld world(random, small_grid(random), random.any({1, 2, 4, 8, 16}));
@@ -251,6 +252,7 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
     StageRun run;
     world.step([&](Phase phase, const state::Volume& before) {
       if (phase != Phase::excess) return;
+      run.set = &world.set;
       run_stages(world.design, stages, world.moment, nullptr, before, run);
       const std::vector<bool> expected = in_runs(before);
       worlds::for_each(worlds::whole(before.grid), [&](int x, int y, int z) {
@@ -261,7 +263,9 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
         ASSERT_EQ(in_run, expected[before.grid.index(x, y, z)]);
         ASSERT_EQ(beside_wall, wall && !blocked(before, x, y, z) && world.design.needs_walls());
         Cell plain = cell;
-        plain.in_run = plain.beside_wall = 0;
+        const bool is_set = cell.set > 0;
+        ASSERT_EQ(is_set, world.set.test(x, y, z));
+        plain.in_run = plain.beside_wall = plain.set = 0;
         Cell state_only;
         state_only.state = cell.state;
         state_only.amount = cell.amount;
@@ -269,11 +273,13 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
         ASSERT_EQ(plain, state_only);
         runs += in_run;
         walls += beside_wall;
+        set += is_set;
       });
     });
   }
   EXPECT_GT(runs, 500);
   EXPECT_GT(walls, 500);
+  EXPECT_GT(set, 500);
 }
 
 // A solid melts at 30000 and takes up `latent`.

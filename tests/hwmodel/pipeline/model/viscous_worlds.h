@@ -8,16 +8,17 @@ namespace voxmelt::hwmodel {
 struct ViscousWorld {
   Design design;
   run::Simulation simulation;
-  step::Moment moment{0};  // moment of the last phase
+  step::Moment moment{0};                  // moment of the last phase
+  state::BitPlane set{design.shape.grid};  // by the last phase melt
 
   ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
-      : design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
+      : design{freezing_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
         simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
                    worlds::implementation("reference")) {}
 
   // A world of vaults, instead of a hostile volume.
   static ViscousWorld of_vaults(worlds::Random& random, const state::Grid& grid, int lanes) {
-    const Design design{worlds::hostile_parameters(random, rule::Law::viscous, grid), {grid, lanes}};
+    const Design design{freezing_parameters(random, rule::Law::viscous, grid), {grid, lanes}};
     state::Volume start(grid);
     worlds::put_vaults(random, start, design.hot());
     return {design, start};
@@ -32,6 +33,7 @@ struct ViscousWorld {
     simulation.begin_step();
     for (const step::Phase phase : simulation.phases()) {
       const state::Volume before = simulation.volume();
+      if (phase == step::Phase::melt) set = set_places(design.parameters, before);
       moment = simulation.moment();
       simulation.run_phase(phase);
       at(phase, before);
