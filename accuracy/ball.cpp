@@ -5,14 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "accuracy/analytic.h"
+#include "accuracy/ball_state.h"
 #include "accuracy/cells.h"
 #include "accuracy/radial.h"
 #include "accuracy/trial.h"
@@ -30,36 +29,6 @@ Chart chart_of(const std::string& title) {
   Chart chart{.title = title, .x_label = "part that has melted, %", .y_label = "steps over exact"};
   chart.curves.push_back({.name = "exact", .points = {{25, 1}, {90, 1}}, .exact = true});
   return chart;
-}
-
-// Puts a ball of whole cells in the middle of a cube. Returns the radius of a ball of the same volume.
-double put_ball(state::Volume& v, double radius, double heat, double wall) {
-  double cells = 0;
-  for_each_cell(v.grid, [&](int x, int y, int z) {
-    const double m = (v.grid.x - 1) / 2.0;
-    if (std::hypot(x - m, y - m, z - m) <= radius) {
-      put_solid(v, x, y, z, heat);
-      ++cells;
-    } else if (wall > 0) {
-      put_inert(v, x, y, z);
-      v.heat[v.at(x, y, z)] = to_units(wall);
-    }
-  });
-  return std::cbrt(0.75 * cells / std::numbers::pi);
-}
-
-// Returns what has not melted, in cells. A solid cell counts by the latent heat that it lacks.
-double unmelted(const Trial& trial) {
-  const state::Volume& v = trial.volume();
-  const rule::Parameters& p = trial.simulation().parameters();
-  double sum = 0;
-  for_each_cell(v.grid, [&](int x, int y, int z) {
-    if (!v.solid.test(x, y, z)) return;
-    const state::Slot cell = v.at(x, y, z);
-    const double taken = (v.heat[cell] - 1. * p.material.melting_point) / p.material.latent_heat;
-    sum += v.amount[cell] / kOne * (1 - std::clamp(taken, 0.0, 1.0));
-  });
-  return sum;
 }
 
 // Runs until each part has melted. Gives the steps over the exact ones.
