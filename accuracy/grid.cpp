@@ -250,9 +250,9 @@ Outcome measure_straight_front(const Conditions& conditions) {
                                                     : "speed of the front over that at 0 degrees",
                                 .value = run.speed / (viscous ? film.speed() : *along_the_grid),
                                 .exact = 1,
-                                .gate = 0.05,
                                 .note = run.way,
                                 .speed = trial.speed()});
+        if (viscous) outcome.rows.back().gate = 0.05;
         outcome.rows.push_back(
             absolute(setting, "rms deviation from a straight line, cells", run.last.roughness, trial));
         outcome.rows.back().gate = viscous ? 0.1 : 0.5;
