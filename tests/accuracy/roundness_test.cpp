@@ -60,7 +60,9 @@ TEST(Outline, OfASquare) {
 // About the other directions its mean is summed over the cone.
 double cone_of_cube(double x, double y, double z) {
   const double length = std::sqrt(x * x + y * y + z * z), least = std::cos(std::numbers::pi / 12);
-  x /= length, y /= length, z /= length;
+  x /= length;
+  y /= length;
+  z /= length;
   const double flat = std::hypot(x, y), ux = flat > 0 ? -y / flat : 1, uy = flat > 0 ? x / flat : 0;
   const double vx = -z * uy, vy = z * ux, vz = x * uy - y * ux;  // u = (ux, uy, 0), v = n x u
   double sum = 0;
