@@ -47,7 +47,10 @@ TEST(Twin, DitheredSixteenBitsAreTheEnginesInScenes) {
        {"proving_ground", "bunny_small", "lesson_oven", "lesson_latent_heat", "lesson_drain"}) {
     const scene::Scene scene = scene::load(std::string(VOXMELT_SCENES_FOLDER "/") + name + ".toml", {});
     if (scene.parameters.flow.law != rule::Law::paper) continue;
-    expect_engine_bits(scene.parameters, scene.initial, 150, name);
+    rule::Parameters parameters = scene.parameters;
+    parameters.material.freezing_point = 0;  // a twin knows neither freezing nor glow
+    parameters.heat.air_glow = 0;
+    expect_engine_bits(parameters, scene.initial, 150, name);
   }
 }
 
