@@ -198,7 +198,7 @@ const std::vector<Other> kPaper = {{"heat.gamma", 0.1},
                                    {"heat.air.exchange", 0.3},
                                    {"heat.air.bottom", 0.9},
                                    {"heat.air.top", 0.1},
-                                   {"material.melting_point", 0.42},
+                                   {"material.melting_point", 0.46},
                                    {"material.latent_heat", 0.03},
                                    {"flow.fall.factor", 0.5},
                                    {"flow.fall.wall_factor", 0.7},
@@ -222,7 +222,7 @@ const std::vector<Other> kTubes = {{"flow.viscous.stiffness", 1}};
 const std::vector<Other> kViscous = {
     {"heat.neighbours", 6},          {"flow.fall.factor", 0.5},        {"flow.viscous.kappa", 0.5},
     {"flow.viscous.yield", 1},       {"flow.viscous.substeps", 4},     {"flow.viscous.substeps_max", 1},
-    {"flow.viscous.stages_max", 16}, {"material.melting_point", 0.42}, {"flow.thermal.reference", 0.9}};
+    {"flow.viscous.stages_max", 16}, {"material.melting_point", 0.46}, {"flow.thermal.reference", 0.9}};
 
 // The second program is a scene that begins from an export, and has the other value from its start.
 void expect_a_set_value_acts_as_said(const std::filesystem::path& file, const std::vector<Other>& others,
