@@ -23,8 +23,9 @@ Columns covered(int side, const Inside& inside) {
   for (int z = 0; z < side; ++z)
     for (int x = 0; x < side; ++x) {
       double part = 0;
-      for (int i = 0; i < 64; ++i)
-        part += inside(x + (i % 8 + 0.5) / 8 - side / 2.0, z + (i / 8 + 0.5) / 8 - side / 2.0) ? 1. / 64 : 0;
+      for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j)
+          part += inside(x + (i + 0.5) / 8 - side / 2.0, z + (j + 0.5) / 8 - side / 2.0) ? 1. / 64 : 0;
       put_column(v, x, z, part);
     }
   return Columns(v);
