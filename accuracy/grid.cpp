@@ -37,8 +37,9 @@ Row absolute(const std::string& setting, const std::string& quantity, double val
 // Returns the part of a column's square that a disc about the middle of the grid covers, in 64 points.
 double covered(int x, int z, double middle, double radius) {
   int count = 0;
-  for (int i = 0; i < 64; ++i)
-    count += std::hypot(x + (i % 8 - 3.5) / 8 - middle, z + (i / 8 - 3.5) / 8 - middle) < radius ? 1 : 0;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      count += std::hypot(x + (i - 3.5) / 8 - middle, z + (j - 3.5) / 8 - middle) < radius ? 1 : 0;
   return count / 64.0;
 }
 
@@ -216,8 +217,9 @@ Run run_front(const StraightFront& film, Trial& trial, std::uint32_t end) {
     trial.run_to(step);
     return front_of(Columns(trial.volume()), film.angle(), film.side / 8.0, kWet);
   };
-  const Front first = front(end / 4), last = front(end);
-  return {last, (last.place - first.place) / (end - end / 4),
+  const std::uint32_t begin = end / 4;
+  const Front first = front(begin), last = front(end);
+  return {last, (last.place - first.place) / (end - begin),
           fmt::format("from {:.1f} to {:.1f} cells", first.place, last.place)};
 }
 

@@ -76,6 +76,23 @@ void expect_blocked_kept(const Parameters& p, const Volume& before, const Volume
   });
 }
 
+// Returns what is set after melt: liquid below the freezing point that did not freeze.
+std::vector<state::Slot> cold_liquid(const Volume& v, const Parameters& p) {
+  std::vector<state::Slot> cold;
+  if (!p.freezes()) return cold;
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    const state::Slot i = v.at(x, y, z);
+    if (v.liquid.test(x, y, z) && v.heat[i] < p.material.freezing_point) cold.push_back(i);
+  });
+  return cold;
+}
+
+void expect_nothing_given(const std::vector<state::Slot>& cold, const Volume& before, const Volume& after) {
+  for (const state::Slot i : cold) {
+    ASSERT_GE(after.amount[i], before.amount[i]) << "a set cell gave";
+  }
+}
+
 TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
   const auto [law, grid] = GetParam();
   const int cases = grid.cells() > 500 ? kCases / 4 : kCases;
@@ -83,11 +100,13 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
     Random random(seed * 977 + grid.cells());
     Parameters p = hostile_parameters(random, law, grid);
     may_freeze(random, p);
+    if (random.one_in(3)) p.flow.viscous.stages_max = random.any<std::uint16_t>({2, 3, 5, 16});
     run::Simulation s = simulate(p, hostile_volume(random, p, grid));
     ASSERT_EQ(broken_invariant(s.volume(), p), "") << "the start, seed " << seed;
     for (int i = 0; i < kSteps; ++i) {
       Volume before = s.volume();
       state::Ledger books = s.ledger();
+      std::vector<state::Slot> cold;
       step_by_phase(s, [&](Phase phase) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(i) + ", after " +
                      std::string(step::kPhaseNames[static_cast<std::size_t>(phase)]));
@@ -102,6 +121,8 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
           expect_only_near_changed(before, v, phase);
         }
         expect_blocked_kept(p, before, v, phase);
+        if (phase == Phase::melt) cold = cold_liquid(v, p);
+        if (phase == Phase::spread) expect_nothing_given(cold, before, v);
         before = v;
         books = s.ledger();
       });
