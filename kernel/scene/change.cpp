@@ -124,6 +124,7 @@ void change_key(Scene& scene, const std::string& key, double value, const std::s
   parameters.material = read_material(root);
   parameters.pieces = read_pieces(root);
   parameters.heat = read_heat(root, height_of(document), warnings);
+  parameters.materials = read_palette(root, parameters.material, parameters.heat).rows;
   parameters.flow = read_flow(root, warnings);
 
   // Everything that does not follow from these tables stays.

@@ -111,12 +111,20 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
   entry.mesh = std::move(mesh);
 }
 
-void read_state(Reader& reader, const rule::Material& material, Entry& entry) {
+int read_material_name(Reader& reader, const std::vector<std::string>& materials) {
+  if (!reader.has("material")) return 0;
+  if (materials.empty()) reader.fail("material", " needs [[materials]]: the scene has one material");
+  return static_cast<int>(reader.choice("material", materials, 0));
+}
+
+void read_state(Reader& reader, const rule::Material& material, const std::vector<std::string>& materials,
+                Entry& entry) {
   if (entry.cut) return;
   if (entry.role == Role::inert) {
     entry.wall = read_wall(reader, material);
     return;
   }
+  if (entry.role == Role::solid) entry.material = read_material_name(reader, materials);
   entry.temperature = reader.number("temperature", fraction(), 0.0);
   if (entry.role != Role::liquid) return;
   entry.amount = reader.number("amount", above(0).at_most(kLargestAmount), 1.0);
@@ -125,9 +133,10 @@ void read_state(Reader& reader, const rule::Material& material, Entry& entry) {
 
 }  // namespace
 
-Contents read_contents(Reader& root, state::Grid grid, const rule::Material& material,
-                       std::vector<std::string>& warnings) {
+Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& parameters,
+                       const std::vector<std::string>& materials, std::vector<std::string>& warnings) {
   Contents contents;
+  contents.materials = parameters.materials;
   contents.terrain.x = grid.x;
   contents.terrain.z = grid.z;
   contents.terrain.height.resize(grid.columns());
@@ -143,7 +152,8 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Material& mat
       const std::string shape = names[reader.choice("shape", names)];
       if (shape == "floor" || shape == "heightfield") {
         if (role != Role::inert) reader.fail("shape", fmt::format(" = \"{}\" is for [[inert]] only", shape));
-        if (const rule::Temperature wall = read_wall(reader, material); wall > 0) contents.ground_wall = wall;
+        if (const rule::Temperature wall = read_wall(reader, parameters.material); wall > 0)
+          contents.ground_wall = wall;
         if (shape == "floor") read_floor(reader, contents.terrain, grid);
         if (shape == "heightfield") read_heightfield(reader, contents.terrain, grid, warnings);
       } else {
@@ -151,7 +161,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Material& mat
         entry.role = role;
         entry.name = fmt::format("{}.{}", list, i);
         entry.cut = reader.flag("cut", false);
-        read_state(reader, material, entry);
+        read_state(reader, parameters.material, materials, entry);
         if (shape == "mesh")
           read_mesh_entry(reader, entry);
         else

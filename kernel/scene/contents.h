@@ -12,7 +12,8 @@
 namespace voxmelt::scene {
 
 // Reads them. It throws InputError. `warnings` grows by things that are odd but usable.
-Contents read_contents(Reader& root, state::Grid grid, const rule::Material& material,
-                       std::vector<std::string>& warnings);
+// `materials` are the names of those that solids may be of.
+Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& parameters,
+                       const std::vector<std::string>& materials, std::vector<std::string>& warnings);
 
 }  // namespace voxmelt::scene

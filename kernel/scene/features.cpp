@@ -20,6 +20,7 @@ constexpr Feature kFeatures[] = {
     {"latent_heat", [](P p) { return p.material.latent_heat > 0; }},
     {"freezing", [](P p) { return p.freezes(); }},
     {"glow", [](P p) { return p.heat.air && p.heat.air_glow > 0; }},
+    {"materials", [](P p) { return p.has_materials(); }},
     {"pieces", [](P p) { return p.pieces.fall; }},
     {"vent", [](P p) { return !p.vents.empty(); }},
     {"drain", [](P p) { return !p.drains.empty(); }},

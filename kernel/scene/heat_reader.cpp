@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "kernel/scene/conduction.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestGamma = 0.5236;  // pi / 6: weight_face <= 10922, and conduction cannot overshoot
 // Is pi / 8: up to here a checkerboard of heat loses at least half of its swing in each step. With 26
 // neighbours the corners damp it, and no wave that changes its sign keeps more than a fifth.
 constexpr double kCalmGamma = 0.3927;
@@ -29,32 +29,21 @@ constexpr std::uint32_t kLastStep = 0xFFFFFFFF;
 
 Range power() { return at_most(kLargestPower); }
 
-// Returns the weight of Eq. 1, gamma / (pi l^2), for a neighbour at distance l.
-std::uint16_t weight(double gamma, double squared_distance) {
-  return static_cast<std::uint16_t>(std::floor(65536 * gamma / (std::numbers::pi * squared_distance)));
-}
-
 void read_conduction(Reader& reader, rule::Heat& heat, std::vector<std::string>& warnings) {
   const int asked = reader.integer("neighbours", 6, 26, 6);
   if (asked != 6 && asked != 18 && asked != 26)
     reader.fail("neighbours", fmt::format(" = {} is not one of 6, 18, 26", asked));
   heat.neighbours = asked;
   const Range range = at_most(kLargestGamma).because(fmt::format("the bound for {} neighbours", asked));
-  const double gamma = reader.number("gamma", range, 0.15);
+  const double gamma = reader.number("gamma", range, kGamma);
   if (gamma > kCalmGamma && asked < 26)
     warnings.push_back(fmt::format(
         "heat.gamma = {} is above {}: hot and cold cells that alternate change places in each step "
         "and keep {:.0f} % of their difference",
         gamma, kCalmGamma, 100 * (12 * gamma / std::numbers::pi - 1)));
-  heat.weight_face = weight(gamma, 1);
-  if (asked >= 18) heat.weight_edge = weight(gamma, 2);
-  if (asked == 26) heat.weight_corner = weight(gamma, 3);
-}
-
-// Returns what conducts through half a cell, from its surface to its centre. On a plane, four edges and four
-// corners lead through each face.
-double half_cell(const rule::Heat& heat) {
-  return 2 * (heat.weight_face + 4 * (heat.weight_edge + heat.weight_corner)) / 65536.0;
+  heat.weight_face = conduction_weight(gamma, 1);
+  if (asked >= 18) heat.weight_edge = conduction_weight(gamma, 2);
+  if (asked == 26) heat.weight_corner = conduction_weight(gamma, 3);
 }
 
 void read_air_temperature(Reader& reader, rule::Heat& heat, int ny, std::optional<double> fallback = {}) {
@@ -82,7 +71,8 @@ void read_air(Reader& reader, rule::Heat& heat, int ny, std::vector<std::string>
   read_glow(reader, heat, warnings);
   if (heat.air_glow > 0 && !reader.has("exchange")) return read_air_temperature(reader, heat, ny, 0.0);
   const double given = reader.number("exchange", at_least(kSmallestExchange).at_most(kLargestExchange));
-  const double half = half_cell(heat), exchange = half > 0 ? given / (1 + given / half) : given;
+  const double half = half_cell(heat.weight_face, heat.weight_edge, heat.weight_corner),
+               exchange = behind_half_cell(given, half);
   heat.air_exchange = to_factor16(exchange);
   const double taken = heat.air_exchange / 65536.0;
   if (std::abs(taken / exchange - 1) > 0.02)

@@ -60,6 +60,13 @@ bool can_flow(const Contents& contents, const rule::Parameters& parameters) {
   return false;
 }
 
+void use_palette(Palette palette, Scene& scene) {
+  scene.materials = std::move(palette.names);
+  scene.parameters.materials = std::move(palette.rows);
+  for (const std::optional<Vec3>& color : palette.colors)
+    scene.look.materials.push_back(color.value_or(scene.look.solid));
+}
+
 // Reads everything except what fills the grid. It returns the size of the grid.
 state::Grid read_settings(Reader& root, Scene& scene) {
   scene.title = root.text("title", scene.name);
@@ -76,6 +83,7 @@ state::Grid read_settings(Reader& root, Scene& scene) {
   scene.camera = read_camera(root, grid);
   scene.light = read_light(root);
   scene.look = read_look(root);
+  use_palette(read_palette(root, scene.parameters.material, scene.parameters.heat), scene);
   return grid;
 }
 
@@ -130,7 +138,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   const state::Grid grid = read_settings(root, scene);
 
   // The fields of an export replace the shapes. The terrain still determines how the ground is drawn.
-  Contents contents = read_contents(root, grid, scene.parameters.material, scene.warnings);
+  Contents contents = read_contents(root, grid, scene.parameters, scene.materials, scene.warnings);
   std::optional<Reader> start = root.table("start");
   std::filesystem::path fields;
   if (start) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 namespace voxmelt::scene {
 
@@ -30,6 +31,7 @@ inline constexpr int kMostSmooth = 6;  // passes that the renderer can do
 
 struct Look {
   Vec3 solid{0.55, 0.56, 0.6};   // colour of matter that has not melted
+  std::vector<Vec3> materials;   // the same for each material of solids; none: there is one material
   Vec3 liquid{0.78, 0.8, 0.84};  // colour of matter that flows
   Vec3 ground{0.42, 0.36, 0.3};  // floor and terrain
   Vec3 background{0.93, 0.94, 0.96};

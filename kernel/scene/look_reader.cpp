@@ -47,7 +47,8 @@ double linear(int byte) {
   return std::round(light * 10000) / 10000;
 }
 
-// Reads [r, g, b] in linear light, or "#rrggbb" as painting programs write it.
+}  // namespace
+
 Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback) {
   if (!reader.has(key) || reader.kind(key) != Value::Kind::text)
     return reader.vector<3>(key, fraction(), fallback);
@@ -60,6 +61,8 @@ Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback) {
   for (std::size_t i = 0; i < 3; ++i) color[i] = linear(16 * digit(text[1 + 2 * i]) + digit(text[2 + 2 * i]));
   return color;
 }
+
+namespace {
 
 Vec3 read_clear(Reader& reader, const Vec3& fallback) {
   const Range range = at_most(256);

@@ -10,5 +10,7 @@ namespace voxmelt::scene {
 Camera read_camera(Reader& root, state::Grid grid);  // distance 0 lets the renderer fit the grid
 Light read_light(Reader& root);
 Look read_look(Reader& root);
+// Reads [r, g, b] in linear light, or "#rrggbb" as painting programs write it.
+Vec3 read_color(Reader& reader, const char* key, const Vec3& fallback);
 
 }  // namespace voxmelt::scene

@@ -2,6 +2,8 @@
 // integers. All functions throw InputError. `warnings` grows by things that are odd but usable.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,14 @@ namespace voxmelt::scene {
 
 rule::Material read_material(Reader& root);  // [material]
 rule::Pieces read_pieces(Reader& root);      // [pieces]
+// Reads [[materials]]. The rows begin with that of [material]; there are none if the scene has no others. The
+// names begin with "". It needs the other tables to be read.
+struct Palette {
+  std::vector<std::string> names;
+  std::vector<std::optional<std::array<double, 3>>> colors;  // none: as [look] says
+  std::vector<rule::SolidMaterial> rows;
+};
+Palette read_palette(Reader& root, const rule::Material& material, const rule::Heat& heat);
 // Reads [heat], [heat.air] and [[heat_source]].
 rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::HeatSource> read_heat_sources(Reader& root);  // [[heat_source]] alone

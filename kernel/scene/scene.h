@@ -23,6 +23,7 @@ struct Scene {
   std::uint32_t steps = 1000;  // steps that `voxmelt run` does by default
   std::uint32_t frame_every = 100;
   std::uint32_t first_step = 0;              // the automaton's number of the first step
+  std::vector<std::string> materials;        // names of several materials; the first is ""
   std::vector<std::string> features;         // named extras and features that this scene asks for
   std::vector<std::string> warnings;         // e.g. leaks of a mesh
   std::vector<std::filesystem::path> files;  // files that were read for it

@@ -85,6 +85,7 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
   if (amount == 0 && volume.heat[cell] != 0) return "no heat without an amount";
+  if (!solid && !volume.material.empty() && volume.material[cell] != 0) return "no material but in solids";
   return nullptr;
 }
 

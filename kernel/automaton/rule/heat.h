@@ -44,12 +44,12 @@ VOXMELT_RULE std::int32_t radiated(std::int32_t h, std::int32_t irradiance, std:
   return std::min((irradiance * 4096 + dither) >> 16, kTemperatureMax - h);
 }
 
-// Applies Newton's law of cooling, or of heating, by moving air. The result stays between the two
-// temperatures.
-VOXMELT_RULE std::int32_t exchanged(std::int32_t h, std::int32_t air, std::int32_t exchange, int exposed_axes,
-                                    std::int32_t dither, const Material& material) {
+// Applies Newton's law of cooling, or of heating, by moving air. `own` is the temperature of heat content h.
+// The result stays between the two temperatures.
+VOXMELT_RULE std::int32_t exchanged(std::int32_t h, std::int32_t own, std::int32_t air, std::int32_t exchange,
+                                    int exposed_axes, std::int32_t dither) {
   const std::int32_t rate = exposed_exchange(exchange, exposed_axes);
-  return std::min(scaled(air - temperature_of(h, material), rate, dither), kTemperatureMax - h);
+  return std::min(scaled(air - own, rate, dither), kTemperatureMax - h);
 }
 
 // Returns the fourth power of a temperature that counts from absolute zero, in units of temperature.
@@ -59,9 +59,9 @@ VOXMELT_RULE std::int32_t fourth_power(std::int32_t temperature) {
 }
 
 // Returns the heat that a cell gains from what it glows at, mostly below 0.
-VOXMELT_RULE std::int32_t glowed(std::int32_t h, std::int32_t sky, std::int32_t glow, int exposed_axes,
-                                 std::int32_t dither, const Material& material) {
-  const std::int32_t difference = fourth_power(sky) - fourth_power(temperature_of(h, material));
+VOXMELT_RULE std::int32_t glowed(std::int32_t h, std::int32_t own, std::int32_t sky, std::int32_t glow,
+                                 int exposed_axes, std::int32_t dither) {
+  const std::int32_t difference = fourth_power(sky) - fourth_power(own);
   return std::min(scaled(difference, exposed_exchange(glow, exposed_axes), dither), kTemperatureMax - h);
 }
 

@@ -182,6 +182,23 @@ struct Flow {
   std::uint16_t mobility_rate = 0;                 // 1/64 octave over the range of temperatures
 };
 
+// One of the materials that solids may be of, with the weights of its pairs with the others. The first one is
+// that of all liquid: it has the numbers of Material and of Heat.
+inline constexpr int kMostMaterials = 16;
+inline constexpr std::uint32_t kWarmthOne = 65536;
+struct SolidMaterial {
+  using Weights = std::array<std::uint16_t, kMostMaterials>;
+  Temperature melting_point = 0, latent_heat = 0;
+  std::uint32_t warmth = kWarmthOne;  // temperature that a unit of heat gives, 1/65536: 4096..65536
+  std::uint16_t air_exchange = 0;     // as in Heat
+  Weights weight_face{}, weight_edge{}, weight_corner{};
+
+  // Returns the least heat at which a solid that does not melt has a temperature.
+  VOXMELT_RULE std::int64_t heat_at(Temperature temperature) const {
+    return (65536 * std::int64_t{temperature} + warmth - 1) / warmth;
+  }
+};
+
 // Solid pieces that nothing holds fall.
 inline constexpr std::int64_t kDensityOne = 65536;
 struct Pieces {
@@ -194,6 +211,7 @@ struct Parameters {
   std::uint64_t seed = 1;
   Heat heat;
   Material material;
+  std::vector<SolidMaterial> materials;  // none, or 2..16
   Pieces pieces;
   std::vector<Vent> vents;
   std::vector<Drain> drains;
@@ -202,6 +220,8 @@ struct Parameters {
 
   // Tells if cold liquid freezes, or sets and clings.
   bool freezes() const { return heat.enabled && material.freezing_point > 0; }
+  // Tells if solids may be of several materials.
+  VOXMELT_RULE bool has_materials() const { return !materials.empty(); }
   // Tells if the outflow of a falling cell depends on what stands beside it.
   bool falls_by_sides() const { return flow.fall.sees_sides() || freezes(); }
   // Tells if phase `source` may do anything.

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernel/automaton/rule/fixed_point.h"
+#include "kernel/automaton/rule/materials.h"
 #include "kernel/automaton/rule/parameters.h"
 
 namespace voxmelt::rule {
@@ -14,10 +17,14 @@ inline constexpr std::int32_t kThickest = kOne + kBedHalf - 1;  // amount up to 
 
 class SolidBed {
  public:
+  constexpr SolidBed() = default;
   constexpr explicit SolidBed(const Parameters& parameters)
-      : hot_(parameters.heat.enabled),
-        liquid_from_(parameters.material.melting_point + parameters.material.latent_heat),
-        range_(std::max<std::int32_t>(parameters.material.latent_heat, kOne)) {
+      : SolidBed(parameters.heat.enabled,
+                 std::int32_t{parameters.material.melting_point} + parameters.material.latent_heat,
+                 parameters.material.latent_heat) {}
+  // `liquid_from` is the heat from which on the material is liquid.
+  constexpr SolidBed(bool hot, std::int32_t liquid_from, std::int32_t latent_heat)
+      : hot_(hot), liquid_from_(liquid_from), range_(std::max(latent_heat, kOne)) {
     while (range_ << (shift_ + 1) < 65536) ++shift_;
     const std::int32_t whole = range_ << shift_;
     scale_ = ((1 << 28) + whole - 1) / whole;
@@ -36,10 +43,25 @@ class SolidBed {
     return static_cast<std::int32_t>((lack << shift_) * scale_ >> 16);
   }
 
-  bool hot_;
-  std::int32_t liquid_from_, range_;
+  bool hot_ = false;
+  std::int32_t liquid_from_ = 0, range_ = kOne;
   int shift_ = 0;
   std::int32_t scale_ = 0;
+};
+
+// Holds the beds of all materials.
+class SolidBeds {
+ public:
+  explicit SolidBeds(const Parameters& parameters) : beds_{SolidBed(parameters)} {
+    const Materials materials(parameters);
+    for (std::size_t m = 0; m < parameters.materials.size(); ++m)
+      beds_[m] = SolidBed(parameters.heat.enabled, materials.liquid_from(static_cast<int>(m)),
+                          parameters.materials[m].latent_heat);
+  }
+  const SolidBed& of(int material) const { return beds_[static_cast<std::size_t>(material)]; }
+
+ private:
+  std::array<SolidBed, kMostMaterials> beds_;
 };
 
 }  // namespace voxmelt::rule

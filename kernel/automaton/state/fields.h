@@ -38,6 +38,7 @@ struct FieldRow : FieldInfo {
 namespace field {
 inline constexpr bool has_energy(const rule::Parameters& p) { return p.flow.law == rule::Law::paper; }
 inline constexpr bool has_heat(const rule::Parameters& p) { return p.heat.enabled; }
+inline constexpr bool has_materials(const rule::Parameters& p) { return p.has_materials(); }
 }  // namespace field
 
 // The rows are in the order of files.
@@ -62,6 +63,13 @@ inline constexpr std::tuple kFields{
                              .digest_bit = 32,
                              .present = field::has_heat,
                              .missing = "the scene has no [heat]"}},
+    FieldRow<&Volume::material>{{.name = "material",
+                                 .bits = 8,
+                                 .unit = "number of the solid's material",
+                                 .digest_bit = 51,
+                                 .present = field::has_materials,
+                                 .missing = "the scene has no [[materials]]",
+                                 .optional = true}},
 };
 
 // Calls visit(row) for every field, in the order of the table.

@@ -57,6 +57,7 @@ struct HeatTerms {
   Number radiated = 0;   // from point sources
   Number warmed = 0;     // gained from air
   Number cooled = 0;     // lost to air
+  Number melted = 0;     // between the heats of two materials at one temperature, as the one melts
   Number added = 0;      // brought by vents
   Number removed = 0;    // left through drains
   Number rounded = 0;    // rounding of the mean where liquid mixes (either sign)
@@ -66,8 +67,8 @@ struct HeatTerms {
     return std::array{Row{"conducted", +1, &HeatTerms::conducted}, Row{"walls", +1, &HeatTerms::walls},
                       Row{"convected", +1, &HeatTerms::convected}, Row{"radiated", +1, &HeatTerms::radiated},
                       Row{"warmed", +1, &HeatTerms::warmed},       Row{"cooled", -1, &HeatTerms::cooled},
-                      Row{"added", +1, &HeatTerms::added},         Row{"removed", -1, &HeatTerms::removed},
-                      Row{"rounded", +1, &HeatTerms::rounded}};
+                      Row{"melted", +1, &HeatTerms::melted},       Row{"added", +1, &HeatTerms::added},
+                      Row{"removed", -1, &HeatTerms::removed},     Row{"rounded", +1, &HeatTerms::rounded}};
   }
   friend bool operator==(const HeatTerms&, const HeatTerms&) = default;
 };

@@ -4,6 +4,7 @@
 //   inert   never melts and never moves; its amount is the bed offset (kBedHalf: flat), no mass; with heat
 //           above 0 it is an isothermal wall, which keeps its temperature
 //   liquid  exactly the cells that are neither and hold amount > 0
+// A scene with several materials has a field of 8 bits with the number of each solid's material.
 //
 // A cell with neither solid nor liquid has energy 0 and, unless it is such a wall, heat 0. An empty cell has
 // amount 0 too. A cell of amount 0 has no heat, so the bed offset of a wall is at least 1. A field that a
@@ -31,6 +32,7 @@ struct Volume {
   // Each member has a row in fields.h.
   BitPlane solid, liquid, inert;
   Field<std::uint16_t> amount, energy, heat;
+  Field<std::uint8_t> material;  // of solids, 0 elsewhere; empty unless the scene has several
 
   ChangedBricks changed;
 

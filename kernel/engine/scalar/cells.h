@@ -34,15 +34,17 @@ class Cells {
   bool air(int x, int y, int z) const { return !blocked(x, y, z) && !v_.liquid.test(x, y, z); }
 
   // Returns the bed offset of a blocked cell.
-  std::int32_t bed(int x, int y, int z, const rule::SolidBed& solid) const {
+  std::int32_t bed(int x, int y, int z, const rule::SolidBeds& solids) const {
     if (outside(x, y, z)) return rule::kBedHalf;
-    return v_.inert.test(x, y, z) ? amount(x, y, z) : solid.offset(amount(x, y, z), heat(x, y, z));
+    if (v_.inert.test(x, y, z)) return amount(x, y, z);
+    return solids.of(material(x, y, z)).offset(amount(x, y, z), heat(x, y, z));
   }
 
   state::Slot at(int x, int y, int z) const { return v_.at(x, y, z); }
   std::int32_t amount(int x, int y, int z) const { return v_.amount[at(x, y, z)]; }
   std::int32_t energy(int x, int y, int z) const { return v_.energy[at(x, y, z)]; }
   std::int32_t heat(int x, int y, int z) const { return v_.heat[at(x, y, z)]; }
+  int material(int x, int y, int z) const { return v_.material.empty() ? 0 : v_.material[at(x, y, z)]; }
 
  private:
   const state::Volume& v_;

@@ -99,7 +99,7 @@ void Reference::settle(step::Moment moment, Volume& volume, Ledger& ledger) {
     ledger.heat.rounded -= run.content;
     const auto mean = static_cast<std::int32_t>(run.content / run.mass);
     const rule::Column column =
-        rule::run_column(run.mass, run.n, rule::bed_head(bottom, cells.bed(x, bottom - 1, z, solid_bed_)),
+        rule::run_column(run.mass, run.n, rule::bed_head(bottom, cells.bed(x, bottom - 1, z, solid_beds_)),
                          mean, parameters_.flow, moment.substeps, {moment.stages});
     const std::int32_t held = rule::settled_cells(run.mass, run.n);
     const bool shut = rule::is_shut(run.mass, run.n, cells.blocked(x, bottom + run.n, z));

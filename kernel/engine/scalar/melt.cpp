@@ -27,10 +27,12 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
 
   ActiveRows(volume).for_each([&](int x, int y, int z) {
     const state::Slot i = volume.at(x, y, z);
-    if (!rule::melts(volume.heat[i], parameters_.material)) return;
+    const int material = volume.material.empty() ? 0 : volume.material[i];
+    if (!materials_.melts(volume.heat[i], material)) return;
     if (volume.solid.test(x, y, z)) {
       volume.solid.set(x, y, z, false);
       volume.liquid.set(x, y, z, true);
+      if (material != 0) become_first(volume, i, ledger.heat);
       if (!paper) return;
       melted_.set(x, y, z, true);
       volume.energy[i] = volume.amount[i];
@@ -42,6 +44,14 @@ void Reference::melt(Volume& volume, Ledger& ledger) {
     }
   });
   if (parameters_.freezes()) freeze(volume, ledger);
+}
+
+// A cell of another material has melted. It goes on as the first one.
+void Reference::become_first(Volume& volume, state::Slot i, state::HeatLedger& ledger) const {
+  const std::int32_t before = volume.heat[i], after = materials_.melted(before, volume.material[i]);
+  ledger.melted += std::int64_t{after - before} * volume.amount[i];
+  volume.heat[i] = static_cast<rule::Temperature>(after);
+  volume.material[i] = 0;
 }
 
 // Finds the cells that freeze, and those that are set, before any mask changes.

@@ -88,6 +88,10 @@ void turn(state::Volume& volume, int x, int y0, int y1, int z) {
     for (int y = y0; y <= y1; ++y) move(*field, volume.at(x, y - 1, z), (*field)[volume.at(x, y, z)]);
     move(*field, volume.at(x, y1, z), below);
   }
+  if (volume.material.empty()) return;
+  for (int y = y0; y <= y1; ++y)
+    volume.material[volume.at(x, y - 1, z)] = volume.material[volume.at(x, y, z)];
+  volume.material[volume.at(x, y1, z)] = 0;  // of the liquid, or of air
 }
 
 void turn_columns(state::Volume& volume, const state::BitPlane& moving) {

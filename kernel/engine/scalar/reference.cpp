@@ -7,7 +7,10 @@
 namespace voxmelt::scalar {
 
 Reference::Reference(const rule::Parameters& parameters, state::Grid grid)
-    : parameters_(parameters), solid_bed_(parameters), keys_(rule::round_keys(parameters.seed)) {
+    : parameters_(parameters),
+      materials_(parameters),
+      solid_beds_(parameters),
+      keys_(rule::round_keys(parameters.seed)) {
   if (parameters.freezes()) set_ = frozen_ = decltype(set_)(grid);
   if (parameters.flow.law == rule::Law::paper) {
     pattern_ = decltype(pattern_)(grid);

@@ -40,6 +40,7 @@ class Reference final : public step::HostStepper {
   void source(std::uint32_t step, Volume& volume, Ledger& ledger);
   void heat(std::uint32_t step, const step::Irradiance* irradiance, Volume& volume, Ledger& ledger);
   void melt(Volume& volume, Ledger& ledger);
+  void become_first(Volume& volume, state::Slot i, state::HeatLedger& ledger) const;
   void find_frozen(const Volume& volume);
   void freeze(Volume& volume, Ledger& ledger);
   bool is_set(int x, int y, int z) const { return parameters_.freezes() && set_.test(x, y, z); }
@@ -56,7 +57,8 @@ class Reference final : public step::HostStepper {
   void find_patterns(std::uint32_t step, const Volume& volume, const ActiveRows& rows);
 
   rule::Parameters parameters_;
-  rule::SolidBed solid_bed_;
+  rule::Materials materials_;
+  rule::SolidBeds solid_beds_;
   rule::RoundKeys keys_;
   state::Field<std::uint8_t> pattern_;  // paper law: directions that each cell gives to
   state::BitPlane melted_;              // paper law: melted by the last `melt`, until `gravity` has run

@@ -27,7 +27,7 @@ rule::Column Reference::shown(const Cells& cells, int x, int y, int z) const {
   const state::Slot i = cells.at(x, y, z);
   if (in_run_[i]) return column_of(i);
   if (cells.blocked(x, y - 1, z))
-    return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_bed_)));
+    return rule::bed_column(rule::bed_head(y, cells.bed(x, y - 1, z, solid_beds_)));
   const state::Slot below = cells.at(x, y - 1, z);
   if (in_run_[below]) return rule::top_column(column_of(below));
   return rule::air_column(y);

@@ -1,7 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kernel/run/io/export.h"
 
@@ -52,6 +54,24 @@ json heat_json(const rule::Heat& heat) {
           {"air_temperature", heat.air_temperature},
           {"air_glow", heat.air_glow},
           {"air_sky", heat.air_sky}};
+}
+
+json materials_json(const std::vector<rule::SolidMaterial>& materials) {
+  json rows = json::array();
+  for (const rule::SolidMaterial& material : materials) {
+    const auto weights = [&](const rule::SolidMaterial::Weights& all) {
+      return std::vector<std::uint16_t>(all.begin(),
+                                        all.begin() + static_cast<std::ptrdiff_t>(materials.size()));
+    };
+    rows.push_back({{"melting_point", material.melting_point},
+                    {"latent_heat", material.latent_heat},
+                    {"warmth", material.warmth},
+                    {"air_exchange", material.air_exchange},
+                    {"weight_face", weights(material.weight_face)},
+                    {"weight_edge", weights(material.weight_edge)},
+                    {"weight_corner", weights(material.weight_corner)}});
+  }
+  return rows;
 }
 
 json regions_json(const rule::Parameters& p) {
@@ -121,6 +141,7 @@ std::string parameters_json(const rule::Parameters& parameters, state::Grid grid
                   {{"melting_point", parameters.material.melting_point},
                    {"latent_heat", parameters.material.latent_heat},
                    {"freezing_point", parameters.material.freezing_point}}},
+                 {"materials", materials_json(parameters.materials)},
                  {"pieces",
                   {{"fall", parameters.pieces.fall},
                    {"in_liquid", parameters.pieces.in_liquid},

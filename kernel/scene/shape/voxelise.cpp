@@ -57,13 +57,16 @@ void for_each_cell(const Coverage& coverage, const state::Volume& volume, Visit 
 
 class Voxeliser {
  public:
-  explicit Voxeliser(state::Grid grid)
-      : volume_(grid),
+  Voxeliser(state::Grid grid, const std::vector<rule::SolidMaterial>& materials)
+      : materials_(materials),
+        volume_(grid),
         solid_(grid),
         inert_(grid),
         solid_temperature_(grid),
         inert_wall_(grid),
-        touched_(row_of(0, grid.z)) {}
+        touched_(row_of(0, grid.z)) {
+    if (!materials.empty()) volume_.material = material_ = decltype(material_)(grid);
+  }
 
   void add(const Entry& entry, const Coverage& coverage) {
     const Window& window = coverage.window;
@@ -72,6 +75,8 @@ class Voxeliser {
     for_each_cell(coverage, volume_, [&](state::Slot cell, int samples) {
       if (entry.role == Role::solid && raise(solid_[cell], samples, entry.cut))
         solid_temperature_[cell] = to_temperature(entry.temperature);
+      if (entry.role == Role::solid && !entry.cut && !material_.empty() && 2 * samples >= solid_[cell])
+        material_[cell] = static_cast<std::uint8_t>(entry.material);
       if (entry.role == Role::inert && raise(inert_[cell], samples, entry.cut))
         write(inert_wall_[cell], entry.wall);
       if (entry.role == Role::liquid) pour(entry, cell, samples);
@@ -154,6 +159,7 @@ class Voxeliser {
     if (solid) {
       amount = static_cast<rule::Amount>(solid_[cell] * kAmountPerSample);
       volume_.heat[cell] = solid_temperature_[cell];
+      if (!material_.empty()) become(cell, material_[cell]);
     }
     const bool liquid = !inert && !solid && amount > 0;
     if (!liquid && volume_.energy[cell] != 0) volume_.energy[cell] = 0;
@@ -162,6 +168,13 @@ class Voxeliser {
     if (inert) volume_.inert.set(x, y, z, true);
     if (solid) volume_.solid.set(x, y, z, true);
     if (liquid) volume_.liquid.set(x, y, z, true);
+  }
+
+  // Makes a solid one of a material, at the temperature that it has as one of the first.
+  void become(state::Slot cell, std::uint8_t material) {
+    volume_.material[cell] = material;
+    const std::int64_t heat = materials_[material].heat_at(volume_.heat[cell]);
+    volume_.heat[cell] = static_cast<rule::Temperature>(std::min<std::int64_t>(heat, rule::kTemperatureMax));
   }
 
   int samples_of_shape(int x, int y, int z) const {
@@ -187,8 +200,10 @@ class Voxeliser {
     return ground ? ground_wall_ : rule::Temperature{0};
   }
 
+  const std::vector<rule::SolidMaterial>& materials_;
   state::Volume volume_;
   state::Field<std::uint8_t> solid_, inert_;  // samples covered
+  state::Field<std::uint8_t> material_;       // of what is solid; empty if there is one
   state::Field<rule::Temperature> solid_temperature_, inert_wall_;
   rule::Temperature ground_wall_ = 0;
   std::vector<bool> touched_;  // rows in which a shape may be
@@ -197,7 +212,7 @@ class Voxeliser {
 }  // namespace
 
 state::Volume voxelise(const Contents& contents, state::Grid grid, std::vector<std::string>& warnings) {
-  Voxeliser voxeliser(grid);
+  Voxeliser voxeliser(grid, contents.materials);
   for (const Entry& entry : contents.entries) voxeliser.add(entry, cover(entry, grid, warnings));
   return voxeliser.finish(contents);
 }

@@ -38,23 +38,22 @@ TEST(Glow, GoesWithTheFourthPower) {
   EXPECT_EQ(fourth_power(0), 0);
   EXPECT_EQ(fourth_power(32768), 4096);   // 1/16 of 65536
   EXPECT_EQ(fourth_power(65535), 65532);  // 65534 squared is 65532.00006 x 65536
-  const Material cold{.melting_point = 65535};
   // A corner has 6/4 of 10922, 16383: -65532 x 16383 / 65536 is -16382.00006, and D rounds it up.
-  EXPECT_EQ(glowed(65535, 0, 10922, 3, 0, cold), -16383);
-  EXPECT_EQ(glowed(65535, 0, 10922, 3, 65535, cold), -16382);
-  EXPECT_EQ(glowed(0, 65535, 10922, 1, 0, cold), 10921);
-  EXPECT_EQ(glowed(65530, 65535, 10922, 3, 65535, cold), 5);  // 20 x 1/4, and no more than there is room for
+  EXPECT_EQ(glowed(65535, 65535, 0, 10922, 3, 0), -16383);
+  EXPECT_EQ(glowed(65535, 65535, 0, 10922, 3, 65535), -16382);
+  EXPECT_EQ(glowed(0, 0, 65535, 10922, 1, 0), 10921);
+  EXPECT_EQ(glowed(65530, 65530, 65535, 10922, 3, 65535), 5);  // 20 x 1/4, and no more than there is room for
   // Latent heat keeps the temperature at the melting point.
-  EXPECT_EQ(glowed(40000, 0, 10922, 1, 0, {.melting_point = 32768, .latent_heat = 20000}), -683);
+  EXPECT_EQ(temperature_of(40000, {.melting_point = 32768, .latent_heat = 20000}), 32768);
+  EXPECT_EQ(glowed(40000, 32768, 0, 10922, 1, 0), -683);
 }
 
 // It brings a cell no further than to the temperature of what it glows at, but for one unit.
 TEST(Glow, StaysBetween) {
-  const Material cold{.melting_point = 65535};
   for (const int sky : {0, 1, 777, 32768, 65000, 65535})
     for (int h = 0; h <= 65535; ++h)
       for (const int offset : {0, 65535}) {
-        const int after = h + glowed(h, sky, 10922, 3, offset, cold);
+        const int after = h + glowed(h, h, sky, 10922, 3, offset);
         ASSERT_GE(after, std::max(0, std::min(h, sky) - 1)) << h << ", sky " << sky;
         ASSERT_LE(after, std::min(65535, std::max(h, sky) + 1)) << h << ", sky " << sky;
       }
@@ -202,13 +201,12 @@ TEST(Exchange, TheAreaIsUnbiasedOverAllDirections) {
 }
 
 TEST(Exchange, MovesTowardsTheAirAndNotPastIt) {
-  const Material plain{32768, 0};
   EXPECT_LE(exposed_exchange(43690, 3), 65535);
   for (const std::int32_t air : {0, 1, 32768, 65534, 65535})
     for (std::int32_t h = 0; h <= 65535; ++h)
       for (const int axes : {1, 3})
         for (const std::int32_t r : {0, 65535}) {
-          const std::int32_t after = h + exchanged(h, air, 43690, axes, r, plain);
+          const std::int32_t after = h + exchanged(h, h, air, 43690, axes, r);
           ASSERT_GE(after, std::min(h, air));
           ASSERT_LE(after, std::max(h, air));
         }
@@ -219,7 +217,8 @@ TEST(Exchange, WithLatentHeatMovesByNoMoreThanTheTemperaturesDiffer) {
   for (const std::int32_t air : {0, 29999, 30000, 30001, 45535, 65535})
     for (std::int32_t h = 0; h <= 65535; ++h)
       for (const std::int32_t r : {0, 65535}) {
-        const std::int32_t g = exchanged(h, air, 43690, 3, r, m), difference = air - temperature_of(h, m);
+        const std::int32_t own = temperature_of(h, m), difference = air - own;
+        const std::int32_t g = exchanged(h, own, air, 43690, 3, r);
         ASSERT_LE(std::abs(g), std::abs(difference)) << h << ' ' << air;
         ASSERT_TRUE(h + g >= 0 && h + g <= 65535);
       }
