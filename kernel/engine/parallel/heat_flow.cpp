@@ -55,16 +55,20 @@ void HeatFlow::heat(const Job& job, Tiles& changed, simd::Books& books) {
   freezes_ = job.kernels.freezes;
   wake(job);
   const bool later = job.kernels.conduct_edges || job.kernels.conduct_corners || job.kernels.convect;
+  if (job.kernels.conduct_faces_gathered) {
+    conduct_distant(job, job.kernels.conduct_faces_gathered);
+    end_pass(job, later);
+  }
   if (job.kernels.conduct_faces) {
     with_walls(job, job.kernels.face_walls, [&] { conduct_faces(job); });
     end_pass(job, later);
   }
   if (job.kernels.conduct_edges) {
-    with_walls(job, job.kernels.edge_walls, [&] { conduct_distant(job, false); });
+    with_walls(job, job.kernels.edge_walls, [&] { conduct_distant(job, job.kernels.conduct_edges); });
     end_pass(job, true);
   }
   if (job.kernels.conduct_corners) {
-    with_walls(job, job.kernels.corner_walls, [&] { conduct_distant(job, true); });
+    with_walls(job, job.kernels.corner_walls, [&] { conduct_distant(job, job.kernels.conduct_corners); });
     end_pass(job, true);
   }
   if (job.kernels.convect) {
@@ -203,8 +207,7 @@ void HeatFlow::conduct_faces(const Job& job) {
   });
 }
 
-void HeatFlow::conduct_distant(const Job& job, bool corners) {
-  const auto kernel = corners ? job.kernels.conduct_corners : job.kernels.conduct_edges;
+void HeatFlow::conduct_distant(const Job& job, Gather kernel) {
   sweep(job, [&](int z, Worker& worker, const Neighbours& near) {
     // If the slice below was awake, it has been changed, and its old heats are in the ring.
     const auto ring = [&](int slice) -> Slice& { return worker.old[static_cast<std::size_t>(slice & 1)]; };

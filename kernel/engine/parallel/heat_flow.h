@@ -55,7 +55,8 @@ class HeatFlow {
   template <class Pass>
   void with_walls(const Job& job, const simd::WallKernels& walls, const Pass& pass);
   void conduct_faces(const Job& job);
-  void conduct_distant(const Job& job, bool corners);
+  using Gather = decltype(simd::Kernels::conduct_edges);
+  void conduct_distant(const Job& job, Gather kernel);
   void convect(const Job& job);
   void exchange(const Job& job, int z, Worker& worker);
   void wake_for_melt(const Job& job);

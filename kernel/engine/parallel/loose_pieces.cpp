@@ -1,5 +1,6 @@
 #include "kernel/engine/parallel/loose_pieces.h"
 
+#include <utility>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -195,6 +196,7 @@ void LoosePieces::turn_columns(state::Volume& volume) {
       put((*field)[at], lower);
       put((*field)[below], upper);
     }
+    if (!volume.material.empty()) std::swap(volume.material[at], volume.material[below]);
   };
   // From below on, each row changes places with what has come up to it.
   for (int z = 0; z < grid.z; ++z)

@@ -70,6 +70,7 @@ simd::View Stepper::view_of(state::Volume& volume) {
   view.amount = volume.amount.data();
   view.energy = volume.energy.data();
   view.heat = volume.heat.data();
+  if (!volume.material.empty()) view.material = volume.material.data();
   view.solid = volume.solid.data();
   view.liquid = volume.liquid.data();
   view.inert = volume.inert.data();
@@ -201,6 +202,7 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   open_sides(job.view);
   heat_->melt(job, changed_, books);
   note_matter(changed_);
+  if (parameters_.has_materials()) untold_heat_.add(changed_);  // a cell takes on the heat of the first one
   refresh(job.view, changed_, *walls_);
   if (sides_) melted_.add(changed_);
   dirty_.add(changed_);

@@ -10,7 +10,8 @@
 
 namespace voxmelt::simd {
 
-template <class Arch, bool kLatent>
+// Temperature gives that of liquid, by its heat.
+template <class Arch, class Temperature>
 class Convection {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
@@ -21,8 +22,8 @@ class Convection {
       : v_(view),
         rising_(flux.up),
         z_(z),
-        plateau_(step.parameters->material),
-        melting_(step.parameters->material),
+        temperature_(*step.parameters),
+        melting_(temperature_.least_liquid_from()),
         flux_(step.parameters->heat.convection, step.dither),
         books_(step.parameters->heat.convection) {}
 
@@ -63,7 +64,7 @@ class Convection {
 
   // Returns how much hotter the lower cells are, where a bit of `pairs` is set.
   [[gnu::always_inline]] V hotter(V lower, V upper, std::uint64_t pairs, int part) const {
-    return L::keep(L::from_bits(pairs, part), L::sub_saturated(plateau_(lower), plateau_(upper)));
+    return L::keep(L::from_bits(pairs, part), L::sub_saturated(temperature_(lower), temperature_(upper)));
   }
 
   [[gnu::always_inline]] void enter(int w, int y, std::uint64_t own, std::uint16_t* rising) {
@@ -102,7 +103,7 @@ class Convection {
   const View v_;
   std::uint16_t* const rising_;
   const int z_;
-  const Plateau<Arch, kLatent> plateau_;
+  const Temperature temperature_;
   const MeltingHeat<Arch> melting_;
   const Flux<Arch> flux_;
   PairBooks<Arch> books_;

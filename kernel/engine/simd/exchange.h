@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernel/engine/simd/flux.h"
 #include "kernel/engine/simd/heat_books.h"
+#include "kernel/engine/simd/material_lanes.h"
 
 namespace voxmelt::simd {
 
@@ -22,18 +24,22 @@ class Exchange {
         irradiance_(step.irradiance),
         air_temperature_(step.parameters->heat.air_temperature.data()),
         z_(z),
-        plateau_(step.parameters->material),
-        melting_(step.parameters->material),
+        temperature_(*step.parameters),
+        melting_(temperature_.least_liquid_from()),
         dither_(L::set(static_cast<int>(step.dither))),
         rest_(L::set(static_cast<int>(0xFFFF - step.dither))) {
     const rule::Heat& heat = step.parameters->heat;
     for (int n = 0; n < 3; ++n) {  // of n + 1 exposed axes
       rate_[n] = L::set((heat.air_exchange * (4 + n)) >> 2);
       glow_rate_[n] = L::set((heat.air_glow * (4 + n)) >> 2);
+      if constexpr (kFeatures.palette)
+        for (std::size_t m = 0; m < step.parameters->materials.size(); ++m)
+          rates_[n][m] =
+              static_cast<std::uint16_t>((step.parameters->materials[m].air_exchange * (4 + n)) >> 2);
     }
     sky_ = fourth_power(L::set(heat.air_sky));
     glows_ = kFeatures.air && heat.air_glow > 0;
-    blows_ = kFeatures.air && (heat.air_exchange > 0 || glows_);
+    blows_ = kFeatures.air && (kFeatures.palette || heat.air_exchange > 0 || glows_);
   }
 
   [[gnu::always_inline]] void run(const TileRow* tiles, const HeatTiles& tell, Books& books) {
@@ -124,14 +130,7 @@ class Exchange {
         if (lit)
           heat = radiate(heat, amount, L::keep(L::from_bits(solid, part), L::load(irradiance_ + at)), left);
       if constexpr (kFeatures.air)
-        if (bare.one != 0) {
-          heat = exchange(heat, amount, bare, plateau_(heat), L::set(air_temperature_[row.y]), rate_, part,
-                          left);
-          if (glows_) {
-            const V own = fourth_power(plateau_(heat));
-            heat = exchange(heat, amount, bare, own, sky_, glow_rate_, part, left);
-          }
-        }
+        if (bare.one != 0) heat = meet_air(row.y, heat, amount, bare, at, part, left);
       L::store(v_.heat + at, heat);
       any = any | (heat ^ old);
       hottest = L::max(hottest, heat);
@@ -152,6 +151,24 @@ class Exchange {
   [[gnu::always_inline]] static V fourth_power(V temperature) {
     const V square = L::high(temperature, temperature);
     return L::high(square, square);
+  }
+
+  // Exchanges heat with the air, and glows.
+  [[gnu::always_inline]] V meet_air(int y, V heat, V amount, const Exposed& bare, std::size_t at, int part,
+                                    V& left) {
+    const V air = L::set(air_temperature_[y]);
+    if constexpr (kFeatures.palette) {
+      const MaterialLanes<Arch> materials(v_.material + at);
+      const V rates[3] = {materials.of(rates_[0]), materials.of(rates_[1]), materials.of(rates_[2])};
+      heat = exchange(heat, amount, bare, temperature_(heat, materials), air, rates, part, left);
+      if (!glows_) return heat;
+      return exchange(heat, amount, bare, fourth_power(temperature_(heat, materials)), sky_, glow_rate_, part,
+                      left);
+    } else {
+      heat = exchange(heat, amount, bare, temperature_(heat), air, rate_, part, left);
+      if (!glows_) return heat;
+      return exchange(heat, amount, bare, fourth_power(temperature_(heat)), sky_, glow_rate_, part, left);
+    }
   }
 
   // Adds floor(((other - own) rate + D) / 65536). For other < own the rounding is reversed: |difference| rate
@@ -176,10 +193,11 @@ class Exchange {
   const std::uint16_t* const irradiance_;
   const std::uint16_t* const air_temperature_;
   const int z_;
-  const Plateau<Arch, kFeatures.latent> plateau_;
+  const std::conditional_t<kFeatures.palette, Curves<Arch>, Plateau<Arch, kFeatures.latent>> temperature_;
   const MeltingHeat<Arch> melting_;
   const V dither_, rest_;
   V rate_[3], glow_rate_[3], sky_;
+  std::uint16_t rates_[3][Palette::kMost] = {};  // rate_ by material
   bool blows_ = false, glows_ = false;
   GainBooks<Arch> radiated_, warmed_, cooled_;
 };

@@ -18,9 +18,16 @@ struct SpreadFeatures {
 };
 
 struct HeatFeatures {
-  bool latent;     // temperature is not heat
-  bool radiation;  // used by `exchange`
-  bool air;        // used by `exchange`
+  bool latent;           // temperature is not heat
+  bool radiation;        // used by `exchange`
+  bool air;              // used by `exchange`
+  bool palette = false;  // solids are of several materials
+};
+
+struct MeltFeatures {
+  bool paper;    // fresh liquid gets energy
+  bool freezes;  // cold liquid freezes, or is set
+  bool palette;  // solids are of several materials
 };
 
 struct ViscousFeatures {
@@ -35,8 +42,8 @@ struct ViscousFeatures {
 #define VOXMELT_WITHOUT
 #endif
 struct Built {
-  bool heat = true, latent = true, freezing = true, walls = true, radiation = true, air = true,
-       convection = true, edges = true, corners = true;
+  bool heat = true, latent = true, materials = true, freezing = true, walls = true, radiation = true,
+       air = true, convection = true, edges = true, corners = true;
   bool viscous = true, guided = true, thermal = true;                              // for both laws
   bool eight = true, general = true, support = true, slump = true, reheat = true;  // for the paper's law
 };

@@ -31,16 +31,22 @@ class Plateau {
 
  public:
   [[gnu::always_inline]] explicit Plateau(const rule::Material& material)
-      : melting_(L::set(material.melting_point)), latent_(L::set(material.latent_heat)) {}
+      : melting_(L::set(material.melting_point)),
+        latent_(L::set(material.latent_heat)),
+        least_liquid_from_(material.melting_point + material.latent_heat) {}
+  [[gnu::always_inline]] explicit Plateau(const rule::Parameters& parameters)
+      : Plateau(parameters.material) {}
   [[gnu::always_inline]] V operator()(V heat) const {
     if constexpr (kLatent)
       return L::min(heat, L::max(melting_, L::sub_saturated(heat, latent_)));
     else
       return heat;
   }
+  [[gnu::always_inline]] int least_liquid_from() const { return least_liquid_from_; }
 
  private:
   V melting_, latent_;
+  int least_liquid_from_;
 };
 
 // Computes floor(((second - first) weight + dither) / 65536) modulo 65536, for |second - first| weight <

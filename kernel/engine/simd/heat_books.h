@@ -125,7 +125,9 @@ class MeltingHeat {
 
  public:
   [[gnu::always_inline]] explicit MeltingHeat(const rule::Material& material)
-      : least_(material.melting_point + material.latent_heat), below_(L::set(least_ > 0 ? least_ - 1 : 0)) {}
+      : MeltingHeat(material.melting_point + material.latent_heat) {}
+  [[gnu::always_inline]] explicit MeltingHeat(int least)
+      : least_(least), below_(L::set(least > 0 ? least - 1 : 0)) {}
   // Tells if any lane has reached it. For several vectors, their maximum tells.
   [[gnu::always_inline]] bool reached(V heats) const {
     return least_ == 0 || L::nonzero(L::sub_saturated(heats, below_));

@@ -20,6 +20,7 @@ using TileRow = std::uint64_t;
 // Points to the memory of a state::Volume. Rows begin at multiples of 64 cells.
 struct View {
   std::uint16_t *amount = nullptr, *energy = nullptr, *heat = nullptr;
+  std::uint8_t* material = nullptr;      // null unless the scene has several
   const std::uint64_t* walls = nullptr;  // at (0, 0, 0) of a plane one word and one row wider at every side
   const std::uint64_t* sides = nullptr;  // the same before this step's melt, for the paper law's gravity
   std::uint64_t *solid = nullptr, *liquid = nullptr, *inert = nullptr;
@@ -213,6 +214,10 @@ struct Kernels {
   // if there was no such call.
   void (*conduct_faces)(const View&, const Step&, int z, const OldHeat& old, const TileRow* carried,
                         const TileRow* tiles, HeatFlux&, const HeatTiles&, Books&) = nullptr;
+  // Does this in place of conduct_faces if the scene has several materials. It takes heats as the next two
+  // do. Then all three conduct from isothermal walls, too, and need no kernels for that.
+  void (*conduct_faces_gathered)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,
+                                 const HeatTiles&, Books&) = nullptr;
   // These conduct over edges, then over corners. They need the old heats of all three slices, their own as a
   // copy.
   void (*conduct_edges)(const View&, const Step&, int z, const OldHeat& old, const TileRow* tiles,

@@ -2,16 +2,24 @@
 // freezes where it is full and touches something, and is set elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernel/engine/cpu/lanes.h"
 #include "kernel/engine/simd/features.h"
 #include "kernel/engine/simd/kernels.h"
+#include "kernel/engine/simd/material_lanes.h"
 
 namespace voxmelt::simd {
 
-template <class Arch, bool kPaper, bool kFreezes>
+// Stands in where there is one material.
+struct NoPalette {
+  [[gnu::always_inline]] explicit NoPalette(const rule::Parameters& /*one material*/) {}
+};
+
+template <class Arch, MeltFeatures kFeatures>
 class Melt {
   using L = cpu::Lanes<Arch>;
   using V = typename L::V;
@@ -21,9 +29,10 @@ class Melt {
   [[gnu::always_inline]] Melt(const View& view, const Step& step, int z, Books& books)
       : v_(view),
         z_(z),
-        reheat_(kPaper && kBuilt.reheat ? step.parameters->flow.paper.reheat : 0),
+        reheat_(kFeatures.paper && kBuilt.reheat ? step.parameters->flow.paper.reheat : 0),
         melts_(L::set(step.parameters->material.melting_point + step.parameters->material.latent_heat)),
         freezes_(L::set(step.parameters->material.freezing_point)),
+        palette_(*step.parameters),
         books_(books) {}
 
   [[gnu::always_inline]] void run(const TileRow* tiles, TileRow* changed) {
@@ -43,10 +52,10 @@ class Melt {
  private:
   [[gnu::always_inline]] bool word(int w, int y) {
     const std::size_t mask = v_.word(w, y, z_), cell = v_.cell(w, y, z_);
-    const std::uint64_t solid = v_.solid[mask], wet = kFreezes || reheat_ > 0 ? v_.liquid[mask] : 0;
+    const std::uint64_t solid = v_.solid[mask], wet = kFeatures.freezes || reheat_ > 0 ? v_.liquid[mask] : 0;
     std::uint64_t frozen = 0;
     bool stirred = false;
-    if constexpr (kFreezes) {
+    if constexpr (kFeatures.freezes) {
       const std::uint64_t cold = wet == 0 ? 0 : cold_cells(cell, wet);
       if (cold != 0) frozen = cold & full_cells(cell, cold) & touching(w, y);
       stirred = v_.set[mask] != (cold & ~frozen);
@@ -57,14 +66,32 @@ class Melt {
     for (int part = 0; part < L::kParts; ++part) {
       if (!L::in_part(solid | wet, part)) continue;
       const int at = part * L::kCount;
-      below |= L::to_bits(L::less(L::load(v_.heat + cell + at), melts_)) << at;
+      V melts = melts_;
+      if constexpr (kFeatures.palette)
+        melts = MaterialLanes<Arch>(v_.material + cell + at).of(palette_.liquid_from);
+      below |= L::to_bits(L::less(L::load(v_.heat + cell + at), melts)) << at;
     }
     const std::uint64_t fresh = solid & ~below, again = reheat_ > 0 ? wet & ~below : 0;
     if ((fresh | again | frozen) == 0) return stirred;
     v_.liquid[mask] = (v_.liquid[mask] | fresh) & ~frozen;
     v_.solid[mask] = (solid & ~fresh) | frozen;
-    if constexpr (kPaper) stirred |= energise(cell, fresh, again, frozen);
+    if constexpr (kFeatures.palette) become_first(cell, fresh);
+    if constexpr (kFeatures.paper) stirred |= energise(cell, fresh, again, frozen);
     return (fresh | frozen) != 0 || stirred;
+  }
+
+  // Fresh liquid of another material goes on as the first one, at the temperature that it has.
+  [[gnu::always_inline]] void become_first(std::size_t cell, std::uint64_t fresh) {
+    for (std::uint64_t left = fresh; left != 0; left &= left - 1) {
+      const std::size_t at = cell + static_cast<std::size_t>(__builtin_ctzll(left));
+      const std::uint8_t material = v_.material[at];
+      if (material == 0) continue;
+      const std::uint32_t before = v_.heat[at], more = before - palette_.liquid_from[material];
+      const std::uint32_t after = std::min(65535u, palette_.as_first[material] + more);
+      books_.heat.melted += (std::int64_t{after} - before) * v_.amount[at];
+      v_.heat[at] = static_cast<std::uint16_t>(after);
+      v_.material[at] = 0;
+    }
   }
 
   // Returns the liquid cells below the freezing point.
@@ -105,7 +132,7 @@ class Melt {
       const V melted = L::keep(L::from_bits(fresh, part), amount - energy);
       const V reheated = L::keep(L::from_bits(again, part), L::high(amount - energy, L::set(reheat_)));
       V lost = L::zero();
-      if constexpr (kFreezes) {
+      if constexpr (kFeatures.freezes) {
         lost = L::keep(L::from_bits(frozen, part), energy);
         frozen_.add(lost);
       }
@@ -118,7 +145,7 @@ class Melt {
   }
 
   [[gnu::always_inline]] void flush() {
-    if constexpr (kPaper) {
+    if constexpr (kFeatures.paper) {
       books_.energy.melted += melted_.total();
       books_.energy.reheated += reheated_.total();
       books_.energy.frozen += frozen_.total();
@@ -131,6 +158,7 @@ class Melt {
   const int z_;
   const int reheat_;
   const V melts_, freezes_;
+  const std::conditional_t<kFeatures.palette, Palette, NoPalette> palette_;
   Books& books_;
   typename L::Sums melted_, reheated_, frozen_;
 };

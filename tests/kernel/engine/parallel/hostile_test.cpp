@@ -47,6 +47,7 @@ TEST_P(Hostile, SameBitsAfterEveryPhase) {
     }
     Volume start = hostile_volume(random, parameters, grid);
     if (seed % 2 == 1) thin_out(random, start);
+    may_be_of_materials(random, parameters, start);
     if (!same_steps(parameters, start, name, any_tuning(random), 6)) {
       FAIL() << "seed " << seed << ", grid " << grid.x << " x " << grid.y << " x " << grid.z;
     }
@@ -65,6 +66,7 @@ TEST_P(Hostile, SameBitsOnWideGrids) {
     may_freeze(random, parameters);
     Volume start = hostile_volume(random, parameters, grid);
     if (seed % 2 == 1) thin_out(random, start);
+    may_be_of_materials(random, parameters, start);
     step::Tuning tuning = any_tuning(random);
     tuning.tile_shift = random.any({3, 5, 12});
     if (!same_steps(parameters, start, name, tuning, 3)) {

@@ -61,6 +61,50 @@ inline void may_freeze(Random& random, Parameters& p) {
   if (p.heat.air_glow > 0 && random.one_in(3)) p.heat.air_exchange = 0;
 }
 
+// Makes solids of 2 to 16 materials, in half of all calls. It is for the last: it changes the volume, too.
+inline void may_be_of_materials(Random& random, Parameters& p, Volume& v) {
+  if (random.one_in(2)) return;
+  const int count = random.any({2, 3, random.between(2, 16), 16});
+  p.materials.assign(static_cast<std::size_t>(count), {});
+  for (rule::SolidMaterial& row : p.materials) {
+    const int least = p.material.freezing_point;
+    row.melting_point = static_cast<rule::Temperature>(
+        random.any({least, std::max(least, 1), int{p.material.melting_point}, random.between(least, 65535)}));
+    do {
+      row.warmth = static_cast<std::uint32_t>(random.any({4096, 65536, random.between(4096, 65536)}));
+    } while (row.heat_at(row.melting_point) > 65535);
+    const auto room = static_cast<std::int32_t>(65535 - row.heat_at(row.melting_point));
+    row.latent_heat = static_cast<rule::Temperature>(random.any({0, room, random.below(room + 1)}));
+    row.air_exchange = static_cast<std::uint16_t>(random.any({0, 43690, random.below(43691)}));
+  }
+  p.materials[0] = {.melting_point = p.material.melting_point,
+                    .latent_heat = p.material.latent_heat,
+                    .air_exchange = p.heat.air_exchange};
+  for (std::size_t a = 0; a < p.materials.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const auto weight = [&](std::uint16_t of_first, std::int32_t most) {
+        const std::int32_t other = random.any({0, most, random.below(most + 1)});
+        return a == 0 ? of_first : static_cast<std::uint16_t>(other);
+      };
+      rule::SolidMaterial &one = p.materials[a], &two = p.materials[b];
+      one.weight_face[b] = two.weight_face[a] = weight(p.heat.weight_face, 10922);
+      one.weight_edge[b] = two.weight_edge[a] = weight(p.heat.weight_edge, 5461);
+      one.weight_corner[b] = two.weight_corner[a] = weight(p.heat.weight_corner, 3640);
+    }
+  v.material = decltype(v.material)(v.grid);
+  const bool mixed = random.one_in(2);  // else in blocks, as bodies are
+  const int side = random.between(2, 40);
+  const std::uint64_t turn = random.bits();
+  for_each(whole(v.grid), [&](int x, int y, int z) {
+    if (!v.solid.test(x, y, z)) return;
+    const int block = x / side + 3 * (y / side) + 7 * (z / side);
+    const int any =
+        mixed ? random.below(count)
+              : static_cast<int>((turn + static_cast<unsigned>(block)) % static_cast<unsigned>(count));
+    v.material[v.at(x, y, z)] = static_cast<std::uint8_t>(any);
+  });
+}
+
 inline void hostile_paper_law(Random& random, rule::PaperLaw& law) {
   law.neighbours = random.any({4, 8});
   law.threshold = static_cast<std::uint16_t>(random.any({0, 1, 1434, 65535}));

@@ -101,7 +101,9 @@ TEST_P(Hostile, EveryPhaseKeepsEveryPromise) {
     Parameters p = hostile_parameters(random, law, grid);
     may_freeze(random, p);
     if (random.one_in(3)) p.flow.viscous.stages_max = random.any<std::uint16_t>({2, 3, 5, 16});
-    run::Simulation s = simulate(p, hostile_volume(random, p, grid));
+    Volume start = hostile_volume(random, p, grid);
+    may_be_of_materials(random, p, start);
+    run::Simulation s = simulate(p, start);
     ASSERT_EQ(broken_invariant(s.volume(), p), "") << "the start, seed " << seed;
     for (int i = 0; i < kSteps; ++i) {
       Volume before = s.volume();
