@@ -4,9 +4,12 @@ What includes that file is compiled by the commands of compile_commands.json, wi
 tree's own. It is linked before the libraries of the standing build.
 """
 import json
+import math
 import os
 import pathlib
+import resource
 import shlex
+import signal
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -24,13 +27,17 @@ def misfit(change):
 
 
 def run(words, seconds, chosen={}):
-    """The exit code and the text; a run that takes too long counts as failed."""
+    """The exit code and the text; a run that takes too long counts as failed. Seconds are those of the processor, since
+    a machine may be busy with other work, and a run that waits for ever ends after twenty times as long."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 1))
     try:
-        result = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, timeout=seconds, errors="replace",
-                                env=os.environ | chosen)
-        return result.returncode, result.stdout + result.stderr
+        result = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, timeout=20 * seconds, errors="replace",
+                                env=os.environ | chosen, preexec_fn=limit)
     except subprocess.TimeoutExpired:
         return 124, "takes too long"
+    late = result.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
+    return (124, "takes too long") if late else (result.returncode, result.stdout + result.stderr)
 
 
 def commit():
