@@ -11,6 +11,7 @@
 #include "accuracy/heat.h"
 #include "accuracy/level.h"
 #include "accuracy/light.h"
+#include "accuracy/materials.h"
 #include "accuracy/pieces.h"
 #include "accuracy/rest.h"
 #include "accuracy/slope.h"
@@ -77,6 +78,14 @@ Cases heat() {
        "It "
        "has one temperature over the depth.",
        measure_cooling_flow},
+      {"two_layers", "Heat", "A slab of two materials warms and melts as the exact series says",
+       "A column of 64 cells under an isothermal wall. The half near it is of one material, the other of "
+       "another. "
+       "With --quick three pairs of materials, not six.",
+       measure_two_layers},
+      {"body_of_materials", "Heat", "A body of three materials takes up the heat that each of them needs",
+       "A ball melts in an oven, and what melts is drained. The sums by hand are exact.",
+       measure_body_of_materials},
       {"ball_in_mould", "Heat", "A ball melts in a hot mould that it fills",
        "A plain program conducts heat through 160 shells, St 1. What melts has no room to move. "
        "With --quick the ball of radius 20 is left out under the viscous law.",

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/scene/start.h"
 #include "measure/baseline_run.h"
 
 namespace voxmelt::accuracy {
@@ -46,6 +47,7 @@ Trial::Trial(const Conditions& conditions, const std::string& scene_name, std::v
   scene::Scene scene = scene::load(conditions.scenes / (scene_name + ".toml"), sets);
   if (fill) {
     scene.initial = state::Volume(scene.initial.grid);
+    scene::fit_fields(scene.initial, scene.parameters);
     fill(scene.initial);
   }
   warnings_ = std::move(scene.warnings);

@@ -114,7 +114,7 @@ void read_mesh_entry(Reader& reader, Entry& entry) {
 int read_material_name(Reader& reader, const std::vector<std::string>& materials) {
   if (!reader.has("material")) return 0;
   if (materials.empty()) reader.fail("material", " needs [[materials]]: the scene has one material");
-  return static_cast<int>(reader.choice("material", materials, 0));
+  return 1 + static_cast<int>(reader.choice("material", {materials.begin() + 1, materials.end()}));
 }
 
 void read_state(Reader& reader, const rule::Material& material, const std::vector<std::string>& materials,

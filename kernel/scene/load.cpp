@@ -155,6 +155,9 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   // Fields that the scene does not model are dropped, with a warning.
   const std::vector<std::string> dropped = fit_fields(cells, scene.parameters);
   if (start) scene.warnings.insert(scene.warnings.end(), dropped.begin(), dropped.end());
+  if (start && scene.parameters.has_materials())
+    if (const std::string broken = first_broken(cells, scene.materials.size()); !broken.empty())
+      fail_at(start->place("fields"), fields.string() + ": " + broken);
   fill(scene, std::move(cells));
   if (start && scene.parameters.heat.visibility_age(scene.first_step) != 0)
     scene.warnings.push_back(

@@ -71,7 +71,7 @@ std::int64_t cells_with_something(const state::Field<T>& field) {
 }
 
 // Returns the first invariant that a cell breaks, or null.
-const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
+const char* broken_promise(const state::Volume& volume, std::size_t materials, int x, int y, int z) {
   const state::Slot cell = volume.at(x, y, z);
   const bool solid = volume.solid.test(x, y, z), liquid = volume.liquid.test(x, y, z),
              inert = volume.inert.test(x, y, z);
@@ -85,7 +85,9 @@ const char* broken_promise(const state::Volume& volume, int x, int y, int z) {
   if (volume.energy[cell] > amount) return "energy not more than the amount";
   if (!solid && !liquid && volume.energy[cell] != 0) return "no energy without solid or liquid";
   if (amount == 0 && volume.heat[cell] != 0) return "no heat without an amount";
-  if (!solid && !volume.material.empty() && volume.material[cell] != 0) return "no material but in solids";
+  if (volume.material.empty()) return nullptr;
+  if (!solid && volume.material[cell] != 0) return "no material but in solids";
+  if (volume.material[cell] >= materials) return "a material of the scene";
   return nullptr;
 }
 
@@ -105,13 +107,13 @@ state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid,
   return volume;
 }
 
-std::string first_broken(const state::Volume& volume) {
+std::string first_broken(const state::Volume& volume, std::size_t materials) {
   const state::Grid grid = volume.grid;
   for (int z = 0; z < grid.z; ++z)
     for (int y = 0; y < grid.y; ++y) {
       if (is_empty(volume, y, z)) continue;
       for (int x = 0; x < grid.x; ++x)
-        if (const char* promise = broken_promise(volume, x, y, z))
+        if (const char* promise = broken_promise(volume, materials, x, y, z))
           return fmt::format("cell ({}, {}, {}) breaks a rule: {}", x, y, z, promise);
     }
   return {};

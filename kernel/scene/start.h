@@ -1,6 +1,7 @@
 // With [start], a volume is read from the folder of an export instead of built from shapes.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ namespace voxmelt::scene {
 state::Volume read_fields(const std::filesystem::path& folder, state::Grid grid, const Place& place);
 
 // Names the first cell that breaks an invariant of a volume, and the invariant. It is empty if none does.
-std::string first_broken(const state::Volume& volume);
+// `materials` is how many the scene has, if that is known.
+std::string first_broken(const state::Volume& volume, std::size_t materials = rule::kMostMaterials);
 
 // Tells if any inert cell is an isothermal wall.
 bool has_walls(const state::Volume& volume);

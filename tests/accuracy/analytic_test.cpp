@@ -1,5 +1,6 @@
 // The exact answers are held against published numbers, and against the equations that they solve.
 #include "accuracy/analytic.h"
+#include "accuracy/two_layers.h"
 
 #include <gtest/gtest.h>
 
@@ -157,6 +158,40 @@ TEST(Analytic, LubricationFlowFollowsHuppert) {
   EXPECT_NEAR(after, before, 1e-9 * before);
   EXPECT_NEAR(std::sqrt(second / after), dam.rms_length(32 * age), 0.005 * 24);
   EXPECT_NEAR(dam.rms_length(1) / dam.front(1), 0.522233, 1e-6);  // sqrt(3 / 11)
+}
+
+// Two layers of one material are a slab.
+TEST(Analytic, TwoLayersOfOneMaterialAreASlab) {
+  const TwoLayers layers{{20, 44}, {0.1, 0.1}, {1, 1}};
+  for (const double time : {400.0, 5000.0, 20000.0})
+    for (const double x : {1.0, 19.0, 21.0, 64.0})
+      EXPECT_NEAR(layers.temperature(x, time), slab_temperature(x, time, 0.1, 64), 1e-9) << x << ' ' << time;
+  EXPECT_NEAR(layers.temperature(30, layers.time_of(30, 0.4)), 0.4, 1e-5);
+}
+
+// The sum solves the heat equation in each layer. At the border temperature and flow of heat are continuous.
+TEST(Analytic, TwoLayersConductAndMeet) {
+  const TwoLayers layers{{20, 30}, {0.1, 0.4}, {1, 2}};
+  const double time = 3000, e = 1e-2, near = 1e-6;
+  const auto at = [&](double x, double t) { return layers.temperature(x, t); };
+  for (const double x : {7.0, 35.0}) {
+    const double d = x < 20 ? 0.1 : 0.4 / 2;
+    const double bend = (at(x + e, time) - 2 * at(x, time) + at(x - e, time)) / (e * e);
+    const double growth = (at(x, time + 1) - at(x, time - 1)) / 2;
+    EXPECT_NEAR(growth, d * bend, 1e-3 * std::abs(growth)) << x;
+  }
+  EXPECT_NEAR(at(20 - near, time), at(20 + near, time), 1e-6);
+  const double before = (at(20 - near, time) - at(20 - near - e, time)) / e,
+               after = (at(20 + near + e, time) - at(20 + near, time)) / e;
+  EXPECT_NEAR(0.1 * before, 0.4 * after, 1e-2 * std::abs(0.1 * before));
+  // All heat that comes in through the wall stays: its sum grows by what flows in.
+  const auto heat = [&](double t) {
+    double sum = 0;
+    for (double x = 0.05; x < 50; x += 0.1) sum += 0.1 * (x < 20 ? 1 : 2) * at(x, t);
+    return sum;
+  };
+  const double inflow = 0.1 * (at(0, time) - at(e, time)) / e;
+  EXPECT_NEAR((heat(time + 10) - heat(time - 10)) / 20, inflow, 1e-3 * inflow);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "kernel/run/opening/checkpoint_scene.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -40,7 +42,8 @@ scene::Scene scene_of(checkpoint::Checkpoint checkpoint, const fs::path& file) {
     throw checkpoint::Error(error.what());
   }
   if (scene.initial.grid != head.grid) checkpoint::fail(file, "its scene has another grid than its cells");
-  if (const std::string broken = scene::first_broken(checkpoint.volume); !broken.empty())
+  const std::size_t materials = std::max<std::size_t>(1, scene.materials.size());
+  if (const std::string broken = scene::first_broken(checkpoint.volume, materials); !broken.empty())
     checkpoint::fail(file, broken);
   scene::fill(scene, std::move(checkpoint.volume));
   scene.first_step = head.first_step;
