@@ -58,13 +58,13 @@ rule::SolidMaterial read_row(Reader& reader, const rule::Material& first) {
                             "and 1 is the most: it could never melt",
                             melting_point, capacity * melting_point + latent_heat));
   row.melting_point = to_temperature(melting_point);
+  row.warmth = static_cast<std::uint32_t>(std::floor(rule::kWarmthOne / capacity));
+  // All is rounded apart, so that it might be some units too high together.
+  while (row.heat_at(row.melting_point) > rule::kTemperatureMax) --row.melting_point;
   if (row.melting_point < first.freezing_point)
     reader.fail(
         "melting_point",
         fmt::format(" = {} is below material.freezing_point: what melts would freeze", melting_point));
-  row.warmth = static_cast<std::uint32_t>(std::floor(rule::kWarmthOne / capacity));
-  // All is rounded apart, so that it might be some units too high together.
-  while (row.heat_at(row.melting_point) > rule::kTemperatureMax) --row.melting_point;
   const std::int64_t most = rule::kTemperatureMax - row.heat_at(row.melting_point);
   row.latent_heat = static_cast<rule::Temperature>(std::min<std::int64_t>(to_temperature(latent_heat), most));
   return row;
