@@ -52,10 +52,11 @@ std::vector<JournalLine> read_journal(const std::filesystem::path& file) {
   return lines;
 }
 
-void JournalReader::apply(Simulation& simulation) {
+void JournalReader::apply(Simulation& simulation, const std::function<void(const Change&)>& tell) {
   for (; next_ < lines_.size() && lines_[next_].step <= simulation.steps_done(); ++next_) {
     try {
       view::apply(lines_[next_].change, simulation);
+      if (tell) tell(lines_[next_].change);
     } catch (const InputError& wrong) {
       throw InputError(fmt::format("{}: {}", lines_[next_].place, wrong.what()));
     }
@@ -68,9 +69,14 @@ std::uint32_t JournalReader::steps_until_next(std::uint32_t done, std::uint32_t 
 }
 
 JournalWriter::JournalWriter(const std::filesystem::path& file, const std::string& scene)
-    : file_(file), stream_(file) {
-  stream_ << "# voxmelt journal of " << scene << "\n" << std::flush;
-  if (!stream_) throw OutputError(fmt::format("error: cannot write {}: {}", file.string(), last_error()));
+    : file_(file), scene_(scene) {
+  restart();
+}
+
+void JournalWriter::restart() {
+  stream_ = std::ofstream(file_);
+  stream_ << "# voxmelt journal of " << scene_ << "\n" << std::flush;
+  if (!stream_) throw OutputError(fmt::format("error: cannot write {}: {}", file_.string(), last_error()));
 }
 
 void JournalWriter::write(std::uint32_t step, const Change& change) {

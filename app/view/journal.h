@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,9 @@ class JournalReader {
  public:
   explicit JournalReader(std::vector<JournalLine> lines) : lines_(std::move(lines)) {}
 
-  // Applies all lines of this step. Throws InputError with the place of a line that the simulation refuses.
-  void apply(Simulation& simulation);
+  // Applies all lines of this step, and tells each of them. Throws InputError with the place of a line that
+  // the simulation refuses.
+  void apply(Simulation& simulation, const std::function<void(const Change&)>& tell = {});
   // Returns how many steps may be run until the next line, at most `wanted`.
   std::uint32_t steps_until_next(std::uint32_t done, std::uint32_t wanted) const;
   bool at_end() const { return next_ == lines_.size(); }
@@ -46,9 +48,11 @@ class JournalWriter {
   // Throws OutputError.
   JournalWriter(const std::filesystem::path& file, const std::string& scene);
   void write(std::uint32_t step, const Change& change);
+  void restart();  // forgets all
 
  private:
   std::filesystem::path file_;
+  std::string scene_;
   std::ofstream stream_;
 };
 

@@ -71,22 +71,26 @@ void open_browser(const std::string& url) {
 }
 
 int run_view(const ViewOptions& options) {
-  Common common;
-  common.scene = options.scene;
   std::optional<view::JournalReader> journal;
   if (!options.journal.empty()) journal.emplace(view::read_journal(options.journal));
-  Simulation simulation(
-      find_scene(common.scene),
-      {.overrides = options.sets, .implementation = options.implementation, .threads = options.threads});
-  for (const std::string& warning : simulation.warnings()) say("warning: " + warning);
+  auto open = [&options, told = false]() mutable {
+    Simulation simulation(
+        find_scene(options.scene),
+        {.overrides = options.sets, .implementation = options.implementation, .threads = options.threads});
+    for (const std::string& warning : simulation.warnings())
+      if (!told) say("warning: " + warning);
+    told = true;
+    return simulation;
+  };
   catch_interrupts();
   if (options.headless) {
     view::JournalReader none({});
+    Simulation simulation = open();
     return run_headless(options, simulation, journal ? *journal : none);
   }
 
   std::unique_ptr<view::Server> server;
-  view::Session session(std::move(simulation), options.scene,
+  view::Session session(open, options.scene,
                         [&](std::optional<view::Client> client, view::MessagePtr message) {
                           server->send(client, std::move(message));
                         });

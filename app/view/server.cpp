@@ -203,6 +203,7 @@ class Server::Net {
     beast::get_lowest_layer(stream).expires_never();
     stream.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     stream.read_message_max(kLongestLine);
+    stream.auto_fragment(false);
     Error error;
     co_await stream.async_accept(request, net::redirect_error(net::use_awaitable, error));
     if (error) co_return;

@@ -61,8 +61,8 @@ const char* name_of(Shown shown) {
 
 }  // namespace
 
-Session::Session(Simulation simulation, std::string scene, Send send)
-    : simulation_(std::move(simulation)), scene_(std::move(scene)), send_(std::move(send)) {}
+Session::Session(std::function<Simulation()> open, std::string scene, Send send)
+    : open_(std::move(open)), simulation_(open_()), scene_(std::move(scene)), send_(std::move(send)) {}
 
 void Session::stop() {
   const std::lock_guard lock(mutex_);
@@ -128,12 +128,7 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
     speed_ = static_cast<std::uint32_t>(whole(numbers(rest, 1)[0], 1, kFastest));
   } else if (word == "restart") {
     numbers(rest, 0);
-    simulation_.restart();
-    if (journal_) journal_->rewind();
-    playing_ = false;
-    single_ = 0;
-    stale_ = true;
-    tell_world({});
+    restart();
   } else if (word == "camera") {
     const std::vector<double> n = numbers(rest, 6);
     Camera camera = simulation_.camera(picture(Quality::fast));
@@ -172,7 +167,21 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
 void Session::change(std::string_view text) {
   const Change change = read_change(text);
   apply(change, simulation_);
+  write_down(change);
+  stale_ = true;
+  tell_world({});
+}
+
+void Session::write_down(const Change& change) {
   if (record_) record_->write(simulation_.steps_done(), change);
+}
+
+void Session::restart() {
+  simulation_ = open_();
+  if (journal_) journal_->rewind();
+  if (record_) record_->restart();
+  playing_ = false;
+  single_ = 0;
   stale_ = true;
   tell_world({});
 }
@@ -182,20 +191,27 @@ void Session::step(std::uint32_t count) {
   const std::uint32_t end = simulation_.steps_done() + count;
   while (simulation_.steps_done() < end) {
     const std::uint32_t left = end - simulation_.steps_done();
-    if (journal_) journal_->apply(simulation_);
+    if (journal_) journal_->apply(simulation_, [&](const Change& change) { write_down(change); });
     simulation_.step(journal_ ? journal_->steps_until_next(simulation_.steps_done(), left) : left);
   }
   last_.step = since(begin);
   stale_ = true;
 }
 
+// The angle of view is that of the picture's height. In a narrow window the scene's own view would be cut at
+// its sides, so it steps back there.
 Picture Session::picture(Quality quality) const {
-  return {.camera = camera_,
-          .width = width_,
-          .height = height_,
-          .azimuth = {},
-          .elevation = {},
-          .quality = quality};
+  constexpr double kWidth = 4.0 / 3;
+  Picture result;
+  result.width = width_;
+  result.height = height_;
+  result.quality = quality;
+  result.camera = camera_;
+  const double aspect = static_cast<double>(width_) / height_;
+  if (camera_ || aspect >= kWidth) return result;
+  result.camera = simulation_.camera(result);
+  result.camera->distance *= kWidth / aspect;
+  return result;
 }
 
 void Session::draw() {

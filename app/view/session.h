@@ -42,7 +42,8 @@ using Send = std::function<void(std::optional<Client>, MessagePtr)>;
 
 class Session {
  public:
-  Session(Simulation simulation, std::string scene, Send send);
+  // `open` gives the simulation at its first state, now and at each restart.
+  Session(std::function<Simulation()> open, std::string scene, Send send);
 
   // Before run(): changes of a journal come by themselves, and what is changed by hand is recorded.
   void follow(JournalReader journal) { journal_ = std::move(journal); }
@@ -68,6 +69,8 @@ class Session {
   void obey(const Order& order);
   void obey(Client client, std::string_view word, std::string_view rest);
   void change(std::string_view text);
+  void restart();
+  void write_down(const Change& change);
   void step(std::uint32_t count);
   void draw();
   std::string header(const Frame& frame, Quality quality, bool exact) const;
@@ -76,6 +79,7 @@ class Session {
   void pick(Client client, int x, int y);
   Picture picture(Quality quality) const;
 
+  const std::function<Simulation()> open_;
   Simulation simulation_;
   const std::string scene_;
   const Send send_;

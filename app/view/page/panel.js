@@ -67,7 +67,7 @@ export class Panel {
       `${world.scene}, ${world.grid.join(" × ")} cells, ${world.implementation}, ${world.threads} threads`;
     document.title = `${world.scene} · voxmelt`;
     if (byId("key").options.length === 0)
-      for (const key of world.keys) byId("key").add(new Option(key));
+      for (const key of world.keys) byId("key").add(new Option(key, key));
     if (this.busy) return;
     this.showList("sources", world.heat_sources, "heat_source", (source, i) => {
       const key = source.keyframes.at(-1);

@@ -132,43 +132,58 @@ function svg(name, attributes) {
   return one;
 }
 
+const shown = new Map();  // the shapes of a source, by its number
+
 function drawHandles() {
   if (!state.world || !state.camera || grip?.source !== undefined) return;
   const box = canvas.getBoundingClientRect();
-  const shapes = [];
-  state.world.heat_sources.forEach((source, i) => {
+  const sources = state.world.heat_sources;
+  for (const i of [...shown.keys()])
+    if (!["point", "sphere"].includes(sources[i]?.kind)) {
+      Object.values(shown.get(i)).forEach((shape) => shape.remove());
+      shown.delete(i);
+    }
+  sources.forEach((source, i) => {
     if (source.kind !== "point" && source.kind !== "sphere") return;
-    const at = source.keyframes.at(-1).at;
-    shapes.push(...handle(i, at, box));
+    if (!shown.has(i)) shown.set(i, newHandle(i));
+    placeHandle(shown.get(i), source.keyframes.at(-1).at, box);
   });
-  handles.replaceChildren(...shapes);
+}
+
+function newHandle(i) {
+  const shapes = {
+    plumb: svg("path", { class: "plumb" }),
+    foot: svg("ellipse", { class: "foot", rx: 7, ry: 3 }),
+    ring: svg("circle", { class: "ring", r: 10, "data-source": i }),
+  };
+  shapes.ring.append(svg("title", {}));
+  shapes.ring.firstChild.textContent = `heat_source.${i}.at: drag; with shift up and down`;
+  shapes.ring.addEventListener("pointerdown", (event) => holdSource(event, i, shapes));
+  handles.append(...Object.values(shapes));
+  return shapes;
 }
 
 // A source that is out of the picture has its ring at the edge.
-function put(ring, at, box) {
-  ring.setAttribute("cx", Math.min(box.width - 14, Math.max(14, at.x)));
-  ring.setAttribute("cy", Math.min(box.height - 14, Math.max(14, at.y)));
-}
-
-function handle(i, at, box) {
+function placeHandle({ ring, plumb, foot }, at, box) {
   const top = project(camera(), at, box.width, box.height);
-  const foot = project(camera(), [at[0], 0, at[2]], box.width, box.height);
-  if (!top) return [];
-  const ring = svg("circle", { class: "ring", r: 10, "data-source": i });
-  put(ring, top, box);
-  ring.append(svg("title", {}));
-  ring.firstChild.textContent = `heat_source.${i}.at: drag; with shift up and down`;
-  ring.addEventListener("pointerdown", (event) => holdSource(event, i, at, ring));
-  if (!foot) return [ring];
-  return [svg("path", { class: "plumb", d: `M${top.x} ${top.y}L${foot.x} ${foot.y}` }),
-          svg("ellipse", { class: "foot", cx: foot.x, cy: foot.y, rx: 7, ry: 3 }), ring];
+  const below = project(camera(), [at[0], 0, at[2]], box.width, box.height);
+  ring.style.display = top ? "" : "none";
+  plumb.style.display = foot.style.display = top && below ? "" : "none";
+  if (!top) return;
+  ring.setAttribute("cx", Math.min(box.width - 14, Math.max(14, top.x)));
+  ring.setAttribute("cy", Math.min(box.height - 14, Math.max(14, top.y)));
+  if (!below) return;
+  plumb.setAttribute("d", `M${top.x} ${top.y}L${below.x} ${below.y}`);
+  foot.setAttribute("cx", below.x);
+  foot.setAttribute("cy", below.y);
 }
 
 // Without shift the source moves at its height, along the floor; with shift it moves up and down.
-function holdSource(event, i, start, ring) {
+function holdSource(event, i, shapes) {
+  const ring = shapes.ring;
   event.preventDefault();
   ring.setPointerCapture(event.pointerId);
-  grip = { source: i, at: start, last: point(event) };
+  grip = { source: i, at: state.world.heat_sources[i].keyframes.at(-1).at, last: point(event) };
   const move = (moveEvent) => {
     const now = point(moveEvent), c = camera();
     const here = project(c, grip.at, now.width, now.height);
@@ -185,9 +200,7 @@ function holdSource(event, i, start, ring) {
       grip.at = add(add(grip.at, right, dx), flat, dy / ahead);
     }
     grip.at = grip.at.map((v) => Math.round(v * 16) / 16);
-    handles.querySelectorAll(".plumb, .foot").forEach((shape) => shape.remove());
-    const shown = project(c, grip.at, now.width, now.height);
-    if (shown) put(ring, shown, now);
+    placeHandle(shapes, grip.at, now);
     change(`heat_source.${i}.at`, ...grip.at);
   };
   const end = () => {
