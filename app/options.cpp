@@ -25,7 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path find_scene(const std::string& given) {
+void say_warnings(const Common& common, const std::vector<std::string>& warnings) {
+  if (common.quiet) return;
+  for (const std::string& warning : warnings) say("warning: " + warning);
+}
+
+}  // namespace
+
+std::filesystem::path find_scene(const std::string& given) {
   const fs::path path(given);
   if (path.has_parent_path() || path.has_extension()) return path;
   for (const fs::path& folder : scene_folders()) {
@@ -43,13 +50,6 @@ fs::path find_scene(const std::string& given) {
                   "that came with it",
                   given, near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
 }
-
-void say_warnings(const Common& common, const std::vector<std::string>& warnings) {
-  if (common.quiet) return;
-  for (const std::string& warning : warnings) say("warning: " + warning);
-}
-
-}  // namespace
 
 void add_scene(Command command, Common& common) {
   command.option("scene", common.scene, "scene file (TOML), a name of `voxmelt list scenes`, or a checkpoint")

@@ -36,6 +36,8 @@ struct Common {
 void add_scene(Command command, Common& common);
 void add_common(Command command, Common& common);
 
+// Returns the file of a scene, given as a path or by the name of a scene that came with the program.
+std::filesystem::path find_scene(const std::string& given);
 // Loads a scene from a path, or by the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
 // Adds warnings to those of the scene, which the report lists, and prints them.

@@ -7,12 +7,19 @@
 
 namespace voxmelt::app {
 
+#ifndef VOXMELT_VIEW
+#define VOXMELT_VIEW 0  // set to 1 by a build that has the libraries of voxmelt-view
+#endif
+
 struct Elsewhere {
   std::string_view command, program;
   std::string_view description;  // the command's text in --help of voxmelt
 };
 
 inline constexpr std::array kElsewhere{
+#if VOXMELT_VIEW
+    Elsewhere{"view", "voxmelt-view", "Melt it by hand, in a browser: sources, vents, numbers, camera"},
+#endif
     Elsewhere{"bench", "voxmelt-measure",
               "Throughput, beside what this machine could do at most and the paper's program"},
     Elsewhere{"accuracy", "voxmelt-measure",

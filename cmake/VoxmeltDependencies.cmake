@@ -27,6 +27,10 @@ endif()
 find_package(CLI11 REQUIRED)
 find_package(benchmark REQUIRED)
 
+# The two libraries of `voxmelt view`. Without them the rest is as ever.
+find_package(Boost 1.74 QUIET)
+find_package(JPEG QUIET)
+
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SYSTEMC REQUIRED systemc)

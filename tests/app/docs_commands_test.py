@@ -36,7 +36,7 @@ width = 64
 height = 64
 """
 WORDS = {"SCENE": "scene.toml", "FILE": "last.checkpoint", "out/NAME": "out/bunny", "DIR/scene.toml": "exported/scene.toml", "NAME": "out/bunny", "DIR": "dir", "N": "2", "X,Y": "20,9"}
-TAKES_LONG = re.compile(r"voxmelt (bench|accuracy)\b")
+TAKES_LONG = re.compile(r"voxmelt (bench|accuracy|view)\b")
 # Of commands that differ, or stop, on purpose.
 OTHER_CODES = {"--plant": (0, 1)}
 

@@ -91,6 +91,8 @@ ALLOWED = {
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
                 "render/image", "render/packet", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
+    # The page's server: all work is done by the library.
+    "app/view": ["app", "include/voxmelt", "render/image"],
     "app": ["kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
             "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
@@ -108,12 +110,14 @@ THIRD_PARTY = {
     "zstd.h": ["kernel/run/checkpoint"],
     "xxhash.h": ["kernel/run/checkpoint"],
     "CLI/": ["app/command_line.cpp"],
+    "boost/": ["app/view/server.cpp"],
+    "jpeglib.h": ["app/view/encode.cpp"],
     "benchmark/": ["bench"],
     "nlohmann/": ["kernel/run/checkpoint", "kernel/run/io", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
-                  "report/bench", "report/hardware", "app"],
+                  "report/bench", "report/hardware", "app", "app/view"],
     "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
-             "report/hardware", "app"],
+             "report/hardware", "app", "app/view"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500

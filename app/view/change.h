@@ -1,0 +1,35 @@
+// A change of the world is made between two steps, by hand or by a journal: a key of the scene and its new
+// numbers, as text "KEY NUMBER ...".
+//
+//   heat_source.0.at X Y Z           .power P   .radius R   .direction X Y Z   .remove
+//   heat_source.add X Y Z POWER      a point; it gets the next number
+//   vent.0.at X Y Z                  .radius R  .rate A     .temperature T     .remove
+//   vent.add X Y Z RADIUS RATE TEMPERATURE
+//   drain.0.at X Y Z                 .radius R  .rate A     .remove
+//   drain.add X Y Z RADIUS RATE
+//   flow.viscous.kappa 0.02          any other key that Simulation::set() takes
+//
+// Units and ranges are those of scene files. Text that is no change, and numbers out of their range, throw
+// voxmelt::InputError, and nothing has changed then.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "voxmelt/voxmelt.h"
+
+namespace voxmelt::view {
+
+struct Change {
+  std::string key;
+  std::vector<double> numbers;
+
+  friend bool operator==(const Change&, const Change&) = default;
+};
+
+Change read_change(std::string_view text);
+std::string text_of(const Change& change);  // read_change() gives the same numbers again
+void apply(const Change& change, Simulation& simulation);
+
+}  // namespace voxmelt::view

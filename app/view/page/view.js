@@ -1,0 +1,252 @@
+// The page talks to the server in lines of text, and shows the frames that come back.
+import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
+import { Panel } from "/panel.js";
+
+const byId = (id) => document.getElementById(id);
+const canvas = byId("picture"), handles = byId("handles");
+const state = { camera: null, head: null, world: null, own: null, placing: false, times: [] };
+let socket = null, wait = 500;
+
+const say = (line) => { if (socket?.readyState === WebSocket.OPEN) socket.send(line); };
+const change = (key, ...numbers) => say(["change", key, ...numbers].join(" "));
+const panel = new Panel(say, change);
+
+function connect() {
+  socket = new WebSocket(`ws://${location.host}/socket`);
+  socket.binaryType = "arraybuffer";
+  socket.onopen = () => { wait = 500; byId("notice").textContent = ""; size(); };
+  socket.onmessage = (event) => (typeof event.data === "string" ? hear(JSON.parse(event.data)) : show(event.data));
+  socket.onclose = () => {
+    byId("notice").textContent = "The server is not there. This page asks for it again until it is.";
+    setTimeout(connect, wait);
+    wait = Math.min(5000, 2 * wait);
+  };
+}
+
+function hear(message) {
+  if (message.type === "world") { state.world = message; panel.showWorld(message); drawHandles(); }
+  if (message.type === "pick") panel.showPick(message);
+  if (message.type === "refused") {
+    byId("notice").textContent = message.why;
+    setTimeout(() => { if (byId("notice").textContent === message.why) byId("notice").textContent = ""; }, 6000);
+  }
+}
+
+async function show(bytes) {
+  const length = new DataView(bytes).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+  const type = head.exact ? "image/png" : "image/jpeg";
+  const picture = await createImageBitmap(new Blob([new Uint8Array(bytes, 4 + length)], { type }));
+  if (canvas.width !== picture.width || canvas.height !== picture.height)
+    Object.assign(canvas, { width: picture.width, height: picture.height });
+  canvas.getContext("2d").drawImage(picture, 0, 0);
+  picture.close();
+  const now = performance.now();
+  state.times = [...state.times.filter((t) => now - t < 2000), now];
+  state.head = head;
+  state.camera = head.camera;
+  if (!pointers.size) state.own = null;
+  canvas.dataset.step = head.step;
+  canvas.dataset.quality = head.quality;
+  canvas.dataset.digest = head.digest ?? "";
+  panel.showFrame(head, state.times.length / 2);
+  drawHandles();
+}
+
+// The camera that the hand has set, until a frame shows it.
+const camera = () => state.own ?? state.camera;
+let cameraAsked = false;
+function look(next) {
+  state.own = next;
+  if (cameraAsked) return;
+  cameraAsked = true;
+  requestAnimationFrame(() => {
+    cameraAsked = false;
+    const c = state.own;
+    if (c) say(["camera", c.azimuth, c.elevation, c.distance, ...c.target].join(" "));
+  });
+}
+
+function size() {
+  const box = byId("stage").getBoundingClientRect(), most = 1280;
+  const scale = Math.min(1, most / Math.max(box.width, box.height, 1));
+  const side = (v) => Math.max(64, Math.round(v * scale));
+  say(`size ${side(box.width)} ${side(box.height)}`);
+}
+new ResizeObserver(() => size()).observe(byId("stage"));
+
+// --- The hand on the picture ---
+
+const pointers = new Map();
+let grip = null;  // what the hand holds: "turn", "move", or a source
+
+const point = (event) => {
+  const box = canvas.getBoundingClientRect();
+  return { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
+};
+
+canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+canvas.addEventListener("pointerdown", (event) => {
+  canvas.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, point(event));
+  grip = { kind: event.shiftKey || event.button === 2 || pointers.size > 1 ? "move" : "turn", way: 0 };
+  canvas.classList.add("turning");
+});
+canvas.addEventListener("pointermove", (event) => {
+  if (!pointers.has(event.pointerId) || !camera()) return;
+  const before = pointers.get(event.pointerId), now = point(event);
+  const dx = now.x - before.x, dy = now.y - before.y;
+  grip.way += Math.abs(dx) + Math.abs(dy);
+  if (pointers.size === 2) {
+    const other = [...pointers.entries()].find(([id]) => id !== event.pointerId)[1];
+    const was = Math.hypot(before.x - other.x, before.y - other.y), is = Math.hypot(now.x - other.x, now.y - other.y);
+    if (is > 0) look(moved(nearer(camera(), was / is), dx / 2, dy / 2, now.height));
+  } else if (grip.kind === "move") {
+    look(moved(camera(), dx, dy, now.height));
+  } else {
+    look(turned(camera(), dx, dy));
+  }
+  pointers.set(event.pointerId, now);
+});
+const release = (event) => {
+  const at = pointers.get(event.pointerId);
+  pointers.delete(event.pointerId);
+  if (pointers.size === 0) canvas.classList.remove("turning");
+  if (!at || !grip || grip.way > 4 || event.type === "pointercancel") return;
+  const x = Math.min(canvas.width - 1, Math.floor((at.x / at.width) * canvas.width));
+  const y = Math.min(canvas.height - 1, Math.floor((at.y / at.height) * canvas.height));
+  say(`pick ${Math.max(0, x)} ${Math.max(0, y)}`);
+};
+canvas.addEventListener("pointerup", release);
+canvas.addEventListener("pointercancel", release);
+canvas.addEventListener("wheel", (event) => {
+  event.preventDefault();
+  if (camera()) look(nearer(camera(), Math.exp(event.deltaY * 0.001)));
+}, { passive: false });
+
+// --- Handles of heat sources: a ring, and a plumb line to the floor as a cue of depth ---
+
+function svg(name, attributes) {
+  const one = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
+  return one;
+}
+
+const shown = new Map();  // the shapes of a source, by its number
+
+function drawHandles() {
+  if (!state.world || !state.camera || grip?.source !== undefined) return;
+  const box = canvas.getBoundingClientRect();
+  const sources = state.world.heat_sources;
+  for (const i of [...shown.keys()])
+    if (!["point", "sphere"].includes(sources[i]?.kind)) {
+      Object.values(shown.get(i)).forEach((shape) => shape.remove());
+      shown.delete(i);
+    }
+  sources.forEach((source, i) => {
+    if (source.kind !== "point" && source.kind !== "sphere") return;
+    if (!shown.has(i)) shown.set(i, newHandle(i));
+    placeHandle(shown.get(i), source.keyframes.at(-1).at, box);
+  });
+}
+
+function newHandle(i) {
+  const shapes = {
+    plumb: svg("path", { class: "plumb" }),
+    foot: svg("ellipse", { class: "foot", rx: 7, ry: 3 }),
+    ring: svg("circle", { class: "ring", r: 10, "data-source": i }),
+  };
+  shapes.ring.append(svg("title", {}));
+  shapes.ring.firstChild.textContent = `heat_source.${i}.at: drag; with shift up and down`;
+  shapes.ring.addEventListener("pointerdown", (event) => holdSource(event, i, shapes));
+  handles.append(...Object.values(shapes));
+  return shapes;
+}
+
+// A source that is out of the picture has its ring at the edge.
+function placeHandle({ ring, plumb, foot }, at, box) {
+  const top = project(camera(), at, box.width, box.height);
+  const below = project(camera(), [at[0], 0, at[2]], box.width, box.height);
+  ring.style.display = top ? "" : "none";
+  plumb.style.display = foot.style.display = top && below ? "" : "none";
+  if (!top) return;
+  ring.setAttribute("cx", Math.min(box.width - 14, Math.max(14, top.x)));
+  ring.setAttribute("cy", Math.min(box.height - 14, Math.max(14, top.y)));
+  if (!below) return;
+  plumb.setAttribute("d", `M${top.x} ${top.y}L${below.x} ${below.y}`);
+  foot.setAttribute("cx", below.x);
+  foot.setAttribute("cy", below.y);
+}
+
+// Without shift the source moves at its height, along the floor; with shift it moves up and down.
+function holdSource(event, i, shapes) {
+  const ring = shapes.ring;
+  event.preventDefault();
+  ring.setPointerCapture(event.pointerId);
+  grip = { source: i, at: state.world.heat_sources[i].keyframes.at(-1).at, last: point(event) };
+  const move = (moveEvent) => {
+    const now = point(moveEvent), c = camera();
+    const here = project(c, grip.at, now.width, now.height);
+    if (!here) return;
+    const cells = cellsPerPixel(c, here.depth, now.height);
+    const dx = (now.x - grip.last.x) * cells, dy = (now.y - grip.last.y) * cells;
+    const { right, up, back } = axes(c);
+    grip.last = now;
+    if (moveEvent.shiftKey) {
+      grip.at = [grip.at[0], grip.at[1] - dy / Math.max(0.2, up[1]), grip.at[2]];
+    } else {
+      const ahead = Math.max(0.2, Math.abs(back[1]));  // a step into the picture is foreshortened
+      const flat = [Math.sin((c.azimuth * Math.PI) / 180), 0, Math.cos((c.azimuth * Math.PI) / 180)];
+      grip.at = add(add(grip.at, right, dx), flat, dy / ahead);
+    }
+    grip.at = grip.at.map((v) => Math.round(v * 16) / 16);
+    placeHandle(shapes, grip.at, now);
+    change(`heat_source.${i}.at`, ...grip.at);
+  };
+  const end = () => {
+    ring.removeEventListener("pointermove", move);
+    grip = null;
+    drawHandles();
+  };
+  ring.addEventListener("pointermove", move);
+  ring.addEventListener("pointerup", end, { once: true });
+  ring.addEventListener("pointercancel", end, { once: true });
+}
+
+// --- A vent where a click says ---
+
+byId("add-vent").addEventListener("click", () => {
+  state.placing = !state.placing;
+  canvas.classList.toggle("placing", state.placing);
+  byId("add-vent").classList.toggle("on", state.placing);
+});
+const showPick = panel.showPick.bind(panel);
+panel.showPick = (pick) => {
+  showPick(pick);
+  if (!state.placing || !pick.position) return;
+  state.placing = false;
+  canvas.classList.remove("placing");
+  byId("add-vent").classList.remove("on");
+  const [x, y, z] = pick.position;
+  change("vent.add", x, y + 1, z, 3, 0.2, 0.9);
+};
+
+// --- Keys ---
+
+addEventListener("keydown", (event) => {
+  if (event.target.matches("input, select, textarea") || event.ctrlKey || event.metaKey || event.altKey) return;
+  const turn = { ArrowLeft: [-12, 0], ArrowRight: [12, 0], ArrowUp: [0, 12], ArrowDown: [0, -12] }[event.key];
+  if (turn && camera()) look(turned(camera(), ...turn));
+  else if ((event.key === "+" || event.key === "=") && camera()) look(nearer(camera(), 0.9));
+  else if (event.key === "-" && camera()) look(nearer(camera(), 1 / 0.9));
+  else if (event.key === " ") { if (event.target.matches("button")) event.target.blur(); byId("play").click(); }
+  else if (event.key === ".") byId("single").click();
+  else if (event.key === "r") byId("restart").click();
+  else if (event.key === "h") { state.own = null; byId("home").click(); }
+  else if (event.key === "b") byId("best").click();
+  else if (event.key === "?") panel.toggleKeys();
+  else return;
+  event.preventDefault();
+});
+
+connect();

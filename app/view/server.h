@@ -1,0 +1,44 @@
+// The server gives a page and its files to browsers, and carries messages over their WebSockets. One thread
+// runs it. Only it knows Boost.Beast.
+//
+// It listens on the loopback address. A request whose Host or Origin is another one is refused, so that no
+// page of another site may drive it. Nothing that a page says names a file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/view/session.h"
+
+namespace voxmelt::view {
+
+// Is told by the server's thread.
+struct Audience {
+  std::function<void(Client)> came;
+  std::function<void(Client, std::string line)> said;
+};
+
+class Server {
+ public:
+  // Throws OutputError if the port cannot be had. Port 0 takes any that is free.
+  Server(std::uint16_t port, Audience audience);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::uint16_t port() const;
+  void run();   // until stop()
+  void stop();  // any thread
+
+  // Any thread. A page that is too slow for frames gets the newest one: those between are dropped.
+  void send(std::optional<Client> client, MessagePtr message);
+
+ private:
+  class Net;
+  std::unique_ptr<Net> net_;
+};
+
+}  // namespace voxmelt::view

@@ -1,0 +1,307 @@
+#include "app/view/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/view/encode.h"
+
+namespace voxmelt::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kFastest = 1000, kMostSteps = 100'000;
+constexpr int kSmallest = 64, kWidest = 3840, kHighest = 2160;
+constexpr std::size_t kMostOrders = 10'000;  // beyond it pages are not heard
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count() * 1000;
+}
+
+// Reads `count` finite numbers, and nothing else.
+std::vector<double> numbers(std::string_view text, std::size_t count) {
+  const Change read = read_change("x " + std::string(text));
+  if (read.numbers.size() != count) throw InputError(fmt::format("error: wants {} numbers", count));
+  return read.numbers;
+}
+int whole(double number, double least, double most) {
+  if (!(number >= least && number <= most && number == static_cast<double>(static_cast<long>(number))))
+    throw InputError(fmt::format("error: wants a whole number from {} to {}", least, most));
+  return static_cast<int>(number);
+}
+
+json array_of(const Position& p) { return {p[0], p[1], p[2]}; }
+
+json source_json(const HeatSource& source) {
+  constexpr const char* kKinds[kHeatSourceKinds] = {"point", "sphere", "directional", "sky"};
+  json keys = json::array();
+  for (const Keyframe& key : source.keyframes)
+    keys.push_back({{"step", key.step},
+                    {"at", array_of(key.at)},
+                    {"power", key.power},
+                    {"radius", key.radius},
+                    {"direction", array_of(key.direction)}});
+  return {{"kind", kKinds[static_cast<std::size_t>(source.kind)]}, {"keyframes", keys}};
+}
+
+const char* name_of(Quality quality) {
+  if (quality == Quality::fast) return "fast";
+  return quality == Quality::normal ? "normal" : "best";
+}
+const char* name_of(Shown shown) {
+  constexpr const char* kNames[] = {"solid", "liquid", "obstacle", "ground"};
+  return kNames[static_cast<std::size_t>(shown)];
+}
+
+}  // namespace
+
+Session::Session(std::function<Simulation()> open, std::string scene, Send send)
+    : open_(std::move(open)), simulation_(open_()), scene_(std::move(scene)), send_(std::move(send)) {}
+
+void Session::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  something_.notify_all();
+}
+
+void Session::say(Client client, std::string line) {
+  const std::lock_guard lock(mutex_);
+  if (orders_.size() >= kMostOrders) return;
+  orders_.push_back({client, std::move(line)});
+  something_.notify_all();
+}
+
+void Session::come(Client client) { say(client, {}); }
+
+// Pictures of what moves are fast, those of what rests normal, and the best ones if somebody asks.
+bool Session::wait() {
+  std::vector<Order> orders;
+  {
+    std::unique_lock lock(mutex_);
+    const bool busy = playing_ || single_ > 0 || stale_ || (best_ && drawn_ != Quality::best);
+    if (!busy) something_.wait(lock, [&] { return stopped_ || !orders_.empty(); });
+    if (stopped_) return false;
+    orders.swap(orders_);
+  }
+  for (const Order& order : orders) obey(order);
+  return true;
+}
+
+void Session::run() {
+  while (wait()) {
+    const std::uint32_t count = playing_ ? speed_ : std::min(single_, speed_);
+    if (count > 0) step(count);
+    single_ -= std::min(single_, count);
+    if (stale_ || (best_ && drawn_ != Quality::best)) draw();
+  }
+}
+
+void Session::obey(const Order& order) {
+  if (order.line.empty()) {
+    tell_world(order.client);
+    stale_ = true;
+    return;
+  }
+  const std::string_view line = order.line;
+  const std::size_t space = std::min(line.find(' '), line.size());
+  try {
+    obey(order.client, line.substr(0, space), line.substr(std::min(space + 1, line.size())));
+  } catch (const Error& error) {
+    tell(order.client, json{{"type", "refused"}, {"line", order.line}, {"why", error.what()}}.dump(
+                           -1, ' ', true, json::error_handler_t::replace));
+  }
+}
+
+void Session::obey(Client client, std::string_view word, std::string_view rest) {
+  if (word == "play") {
+    playing_ = whole(numbers(rest, 1)[0], 0, 1) == 1;
+    stale_ = true;
+  } else if (word == "step") {
+    single_ += static_cast<std::uint32_t>(whole(numbers(rest, 1)[0], 1, kMostSteps));
+  } else if (word == "speed") {
+    speed_ = static_cast<std::uint32_t>(whole(numbers(rest, 1)[0], 1, kFastest));
+  } else if (word == "restart") {
+    numbers(rest, 0);
+    restart();
+  } else if (word == "camera") {
+    const std::vector<double> n = numbers(rest, 6);
+    Camera camera = simulation_.camera(picture(Quality::fast));
+    camera.azimuth = n[0];
+    camera.elevation = n[1];
+    camera.distance = n[2];
+    camera.target = {n[3], n[4], n[5]};
+    Picture asked = picture(Quality::fast);
+    asked.camera = camera;
+    (void)simulation_.camera(asked);  // refuses what is out of range
+    camera_ = camera;
+    stale_ = true;
+  } else if (word == "home") {
+    numbers(rest, 0);
+    camera_.reset();
+    stale_ = true;
+  } else if (word == "size") {
+    const std::vector<double> n = numbers(rest, 2);
+    const int width = whole(n[0], kSmallest, kWidest), height = whole(n[1], kSmallest, kHighest);
+    width_ = width;
+    height_ = height;
+    stale_ = true;
+  } else if (word == "best") {
+    numbers(rest, 0);
+    best_ = true;
+  } else if (word == "change") {
+    change(rest);
+  } else if (word == "pick") {
+    const std::vector<double> n = numbers(rest, 2);
+    pick(client, whole(n[0], 0, width_ - 1), whole(n[1], 0, height_ - 1));
+  } else {
+    throw InputError("error: no such word");
+  }
+}
+
+void Session::change(std::string_view text) {
+  const Change change = read_change(text);
+  apply(change, simulation_);
+  write_down(change);
+  stale_ = true;
+  tell_world({});
+}
+
+void Session::write_down(const Change& change) {
+  if (record_) record_->write(simulation_.steps_done(), change);
+}
+
+void Session::restart() {
+  simulation_ = open_();
+  if (journal_) journal_->rewind();
+  if (record_) record_->restart();
+  playing_ = false;
+  single_ = 0;
+  stale_ = true;
+  tell_world({});
+}
+
+void Session::step(std::uint32_t count) {
+  const Clock::time_point begin = Clock::now();
+  const std::uint32_t end = simulation_.steps_done() + count;
+  while (simulation_.steps_done() < end) {
+    const std::uint32_t left = end - simulation_.steps_done();
+    if (journal_) journal_->apply(simulation_, [&](const Change& change) { write_down(change); });
+    simulation_.step(journal_ ? journal_->steps_until_next(simulation_.steps_done(), left) : left);
+  }
+  last_.step = since(begin);
+  stale_ = true;
+}
+
+// The angle of view is that of the picture's height. In a narrow window the scene's own view would be cut at
+// its sides, so it steps back there.
+Picture Session::picture(Quality quality) const {
+  constexpr double kWidth = 4.0 / 3;
+  Picture result;
+  result.width = width_;
+  result.height = height_;
+  result.quality = quality;
+  result.camera = camera_;
+  const double aspect = static_cast<double>(width_) / height_;
+  if (camera_ || aspect >= kWidth) return result;
+  result.camera = simulation_.camera(result);
+  result.camera->distance *= kWidth / aspect;
+  return result;
+}
+
+void Session::draw() {
+  const bool moving = playing_ || single_ > 0;
+  const Quality quality = moving ? Quality::fast : best_ && !stale_ ? Quality::best : Quality::normal;
+  const Clock::time_point begin = Clock::now();
+  const Frame frame = simulation_.render(picture(quality));
+  last_.draw = since(begin);
+  const Clock::time_point drawn = Clock::now();
+  const std::string image = moving ? jpeg_of(frame) : png_of(frame);
+  last_.encode = since(drawn);
+  const std::string head = header(frame, quality, !moving);
+  auto message = std::make_shared<Message>();
+  message->binary = true;
+  const auto length = static_cast<std::uint32_t>(head.size());
+  for (int i = 0; i < 4; ++i) message->bytes += static_cast<char>(length >> (8 * i) & 0xFF);
+  message->bytes += head + image;
+  send_({}, std::move(message));
+  if (quality == Quality::best || moving) best_ = false;
+  drawn_ = quality;
+  stale_ = false;
+}
+
+std::string Session::header(const Frame& frame, Quality quality, bool exact) const {
+  const Camera camera = simulation_.camera(picture(quality));
+  const State state = simulation_.state();
+  json head{{"type", "frame"},
+            {"step", simulation_.steps_done()},
+            {"playing", playing_},
+            {"speed", speed_},
+            {"quality", name_of(quality)},
+            {"exact", exact},
+            {"size", {frame.width, frame.height}},
+            {"camera",
+             {{"azimuth", camera.azimuth},
+              {"elevation", camera.elevation},
+              {"distance", camera.distance},
+              {"target", array_of(camera.target)},
+              {"field_of_view", camera.field_of_view}}},
+            {"solid", state.solid.count()},
+            {"liquid", state.liquid.count()},
+            {"ms", {{"step", last_.step}, {"draw", last_.draw}, {"encode", last_.encode}}}};
+  // A pass over the state is worth it where nobody waits for the next frame.
+  if (exact) head["digest"] = fmt::format("{:016x}", simulation_.digest());
+  return head.dump();
+}
+
+void Session::tell_world(std::optional<Client> client) {
+  json sources = json::array(), vents = json::array(), drains = json::array();
+  for (const HeatSource& source : simulation_.heat_sources()) sources.push_back(source_json(source));
+  for (const Vent& vent : simulation_.vents())
+    vents.push_back({{"at", array_of(vent.at)},
+                     {"radius", vent.radius},
+                     {"rate", vent.rate},
+                     {"temperature", vent.temperature}});
+  for (const Drain& drain : simulation_.drains())
+    drains.push_back({{"at", array_of(drain.at)}, {"radius", drain.radius}, {"rate", drain.rate}});
+  const Grid grid = simulation_.grid();
+  tell(client, json{{"type", "world"},
+                    {"scene", scene_},
+                    {"title", simulation_.title()},
+                    {"grid", {grid.x, grid.y, grid.z}},
+                    {"step_number", simulation_.step_number()},
+                    {"implementation", simulation_.implementation()},
+                    {"threads", simulation_.threads()},
+                    {"keys", changeable_keys()},
+                    {"heat_sources", sources},
+                    {"vents", vents},
+                    {"drains", drains}}
+                   .dump(-1, ' ', true, json::error_handler_t::replace));
+}
+
+void Session::tell(std::optional<Client> client, std::string text) {
+  send_(client, std::make_shared<const Message>(Message{std::move(text), false}));
+}
+
+void Session::pick(Client client, int x, int y) {
+  const std::optional<Hit> hit = simulation_.pick(x, y, picture(Quality::fast));
+  json answer{{"type", "pick"}, {"at", {x, y}}, {"step", simulation_.steps_done()}};
+  if (hit) {
+    const Cell cell = hit->matter;
+    json fields = json::object();
+    for (const NamedField& field : simulation_.state().fields)
+      fields[std::string(field.name)] = field.at(cell.x, cell.y, cell.z);
+    answer["shown"] = name_of(hit->shown);
+    answer["position"] = array_of(hit->position);
+    answer["cell"] = {cell.x, cell.y, cell.z};
+    answer["fields"] = fields;
+  }
+  tell(client, answer.dump());
+}
+
+}  // namespace voxmelt::view

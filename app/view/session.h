@@ -1,0 +1,104 @@
+// A session owns a simulation that people look at and change. One thread runs it: it steps, draws and
+// encodes. Others say what the pages ask for, and take away what is to be sent.
+//
+// A page says lines of text, a word and its arguments:
+//
+//   play 0|1            step N               speed N (steps a frame, 1..1000)      restart
+//   camera AZIMUTH ELEVATION DISTANCE X Y Z  home                  size WIDTH HEIGHT
+//   best                                     change KEY NUMBER ... (see change.h)  pick X Y
+//
+// It gets frames, and answers of one line of JSON with a "type". A line that is wrong gets a "refused", and
+// changes nothing.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/view/journal.h"
+#include "voxmelt/voxmelt.h"
+
+namespace voxmelt::view {
+
+using Client = std::uint64_t;
+
+// Holds what a page gets. A frame is binary: the length of a header in four bytes, little-endian, the header
+// in JSON, and a picture, PNG or JPEG.
+struct Message {
+  std::string bytes;
+  bool binary = false;
+};
+using MessagePtr = std::shared_ptr<const Message>;
+
+// Sends to one page, or to all of them if there is no client. It may be called by the session's thread only.
+using Send = std::function<void(std::optional<Client>, MessagePtr)>;
+
+class Session {
+ public:
+  // `open` gives the simulation at its first state, now and at each restart.
+  Session(std::function<Simulation()> open, std::string scene, Send send);
+
+  // Before run(): changes of a journal come by themselves, and what is changed by hand is recorded.
+  void follow(JournalReader journal) { journal_ = std::move(journal); }
+  void record(JournalWriter journal) { record_ = std::move(journal); }
+
+  void run();  // until stop()
+
+  // Any thread may call these.
+  void stop();
+  void say(Client client, std::string line);
+  void come(Client client);  // a page has come, and is told everything
+
+ private:
+  struct Order {
+    Client client;
+    std::string line;  // empty: it has come
+  };
+  struct Milliseconds {
+    double step = 0, draw = 0, encode = 0;
+  };
+
+  bool wait();  // for something to do; false after stop()
+  void obey(const Order& order);
+  void obey(Client client, std::string_view word, std::string_view rest);
+  void change(std::string_view text);
+  void restart();
+  void write_down(const Change& change);
+  void step(std::uint32_t count);
+  void draw();
+  std::string header(const Frame& frame, Quality quality, bool exact) const;
+  void tell_world(std::optional<Client> client);
+  void tell(std::optional<Client> client, std::string text);
+  void pick(Client client, int x, int y);
+  Picture picture(Quality quality) const;
+
+  const std::function<Simulation()> open_;
+  Simulation simulation_;
+  const std::string scene_;
+  const Send send_;
+  std::optional<JournalReader> journal_;
+  std::optional<JournalWriter> record_;
+
+  bool playing_ = false;
+  std::uint32_t speed_ = 3, single_ = 0;  // steps a frame; steps that are still asked for
+  int width_ = 640, height_ = 480;
+  std::optional<Camera> camera_;
+  bool stale_ = true;  // the last frame shows something else
+  Quality drawn_ = Quality::fast;
+  bool best_ = false;  // the best picture was asked for
+  Milliseconds last_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable something_;
+  std::vector<Order> orders_;
+  bool stopped_ = false;
+};
+
+}  // namespace voxmelt::view

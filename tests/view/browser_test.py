@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""The page of `voxmelt view` in a real browser: browser_test.py VOXMELT [FOLDER for screenshots]
+
+Gestures of mouse, wheel, keys and panel change what they say; nothing is cut off from 320 x 480 to 3840 x 2160, light and
+dark; there is no error in the console. Skipped (77) without chromium, chromium-driver and python3-selenium."""
+import shutil
+import sys
+import time
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.append("/usr/lib/python3/dist-packages")  # where Debian has selenium, whichever Python this is
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    webdriver = None
+from page import Page, Server
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+SHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
+
+
+def browser(width, height, dark=False):
+    options = webdriver.ChromeOptions()
+    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", f"--window-size={width},{height}",
+                 "--force-dark-mode" if dark else "--disable-dark-mode"):
+        options.add_argument(word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+    # The window's inside shall be that large, whatever its frame takes.
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                           {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500})
+    if dark:
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                               {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+    return driver
+
+
+class BrowserTest(unittest.TestCase):
+    def open(self, scene, width=1280, height=800, dark=False):
+        self.server = Server(PROGRAM, scene, "--threads", 2)
+        self.addCleanup(self.server.__exit__)
+        self.driver = browser(width, height, dark)
+        self.addCleanup(self.driver.quit)
+        self.driver.get(self.server.url)
+        self.wait(lambda: self.data("digest"))
+
+    def wait(self, what, seconds=20):
+        end = time.monotonic() + seconds
+        while not (found := what()):
+            self.assertLess(time.monotonic(), end, "it does not come")
+            time.sleep(0.05)
+        return found
+
+    def data(self, name):
+        return self.driver.execute_script(f"return document.getElementById('picture').dataset.{name}")
+
+    def element(self, name):
+        return self.driver.find_element(By.ID, name)
+
+    def pixels(self):
+        return self.driver.execute_script("return document.getElementById('picture').toDataURL()")
+
+    def no_errors(self):
+        wrong = [line for line in self.driver.get_log("browser") if line["level"] == "SEVERE"]
+        self.assertEqual(wrong, [])
+
+    def shot(self, name):
+        if SHOTS:
+            SHOTS.mkdir(parents=True, exist_ok=True)
+            self.driver.save_screenshot(str(SHOTS / f"{name}.png"))
+
+    def changes_picture(self, gesture):
+        """The gesture, and that the picture at rest is another one then."""
+        before, step = self.pixels(), self.data("step")
+        gesture()
+        self.wait(lambda: self.pixels() != before and self.data("digest"))
+        self.assertEqual(self.data("step"), step)
+
+    def test_six_scenes_open(self):
+        for scene in ("cello", "goblet_viscous", "ice", "lava", "bunny_small", "lesson_sun"):
+            self.open(scene)
+            self.assertGreater(len(self.pixels()), 20000, scene)
+            self.assertIn(scene, self.driver.title)
+            self.shot(f"scene_{scene}")
+            self.no_errors()
+            self.driver.quit()
+            self.server.__exit__()
+
+    def test_gestures_turn_move_and_come_nearer(self):
+        self.open("bunny_small")
+        canvas = self.element("picture")
+        hand = lambda: ActionChains(self.driver, duration=50)
+        self.changes_picture(lambda: hand().move_to_element_with_offset(canvas, -250, 150).click_and_hold()
+                             .move_by_offset(90, 30).release().perform())
+        self.changes_picture(lambda: hand().key_down(Keys.SHIFT).move_to_element_with_offset(canvas, -250, 150)
+                             .click_and_hold().move_by_offset(40, 60).release().key_up(Keys.SHIFT).perform())
+        self.changes_picture(lambda: hand().scroll_from_origin(ScrollOrigin.from_element(canvas), 0, -300).perform())
+        for key in (Keys.ARROW_LEFT, Keys.ARROW_UP, "+", "-", "h"):
+            self.changes_picture(lambda: hand().send_keys(key).perform())
+        self.no_errors()
+
+    def test_time_goes_by_buttons_and_keys(self):
+        self.open("bunny_small")
+        first = self.data("digest")
+        self.element("single").click()
+        self.wait(lambda: self.data("step") == "1" and self.data("digest"))
+        ActionChains(self.driver).send_keys(".").perform()
+        self.wait(lambda: self.data("step") == "2" and self.data("digest"))
+        self.element("play").click()
+        self.wait(lambda: int(self.data("step")) > 40)
+        self.assertEqual(self.element("play").text, "Pause")
+        ActionChains(self.driver).send_keys(" ").perform()
+        self.wait(lambda: self.data("digest") and self.element("play").text == "Play")
+        self.shot("played")
+        self.element("restart").click()
+        self.wait(lambda: self.data("step") == "0" and self.data("digest"))
+        self.assertEqual(self.data("digest"), first)
+        self.element("best").click()
+        self.wait(lambda: self.data("quality") == "best")
+        self.no_errors()
+
+    def world(self):
+        """What the server says of sources and vents, by a page of its own."""
+        with Page(self.server) as page:
+            return page.text("world")
+
+    def test_sources_and_vents_by_hand(self):
+        self.open("bunny_small")
+        before = self.world()["heat_sources"][0]["keyframes"][0]
+        ring = self.wait(lambda: self.driver.find_elements(By.CSS_SELECTOR, "#handles .ring"))[0]
+        hand = ActionChains(self.driver, duration=50)
+        hand.move_to_element(ring).click_and_hold().move_by_offset(-120, 40).release().perform()
+        moved = self.wait(lambda: (now := self.world()["heat_sources"][0]["keyframes"][0]) != before and now)
+        self.assertEqual(moved["at"][1], before["at"][1], "along the floor")
+        slider = self.driver.find_element(By.CSS_SELECTOR, "#sources input")
+        self.driver.execute_script("arguments[0].value = 0.5; arguments[0].dispatchEvent(new Event('input'))", slider)
+        self.wait(lambda: abs(self.world()["heat_sources"][0]["keyframes"][0]["power"] / before["power"] - 10**0.5) < 1e-3)
+        self.element("add-source").click()
+        self.wait(lambda: len(self.world()["heat_sources"]) == 2)
+        self.wait(lambda: len(self.driver.find_elements(By.CSS_SELECTOR, "#sources button")) == 2)
+        self.driver.find_elements(By.CSS_SELECTOR, "#sources button")[1].click()
+        self.wait(lambda: len(self.world()["heat_sources"]) == 1)
+        self.element("add-vent").click()
+        canvas = self.element("picture")
+        ActionChains(self.driver, duration=50).move_to_element_with_offset(canvas, -60, -30).click().perform()
+        self.shot("vent")
+        self.wait(lambda: len(self.world()["vents"]) == 1)
+        self.assertIn("cell", self.element("probe").text)
+        self.shot("by_hand")
+        self.no_errors()
+
+    def test_numbers_are_set_and_refused(self):
+        self.open("bunny_small")
+        key = self.element("key")
+        key.find_element(By.CSS_SELECTOR, "option[value='heat.gamma']").click()
+        self.element("value").send_keys("7" + Keys.ENTER)
+        self.wait(lambda: "heat.gamma = 7" in self.element("notice").text)
+        self.shot("refused")
+        self.element("value").clear()
+        self.element("value").send_keys("0.2" + Keys.ENTER)
+        self.wait(lambda: self.data("digest"))
+        self.no_errors()
+
+    def test_a_server_that_goes_is_said_and_one_that_comes_is_found(self):
+        self.open("bunny_small")
+        port = self.server.port
+        self.server.__exit__()
+        self.wait(lambda: "server is not there" in self.element("notice").text)
+        self.shot("gone")
+        self.server = Server(PROGRAM, "bunny_small", "--port", port)
+        self.addCleanup(self.server.__exit__)
+        self.wait(lambda: self.element("notice").text == "", 30)
+
+    def test_every_window(self):
+        for width, height in ((320, 480), (390, 844), (1280, 800), (1920, 1080), (3840, 2160)):
+            for dark in (False, True):
+                self.open("lesson_sun", width, height, dark)
+                over = self.driver.execute_script("""
+                    const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+                    const cut = [...document.querySelectorAll('#panel button, #panel input, #panel h1, #panel p')]
+                      .filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 2).map((e) => e.id || e.textContent);
+                    return [wide, cut];""")
+                self.assertEqual(over, [0, []], f"{width} x {height}")
+                picture = self.element("picture").size
+                self.assertGreater(min(picture["width"], picture["height"]), 190)
+                self.shot(f"window_{width}x{height}{'_dark' if dark else ''}")
+                self.no_errors()
+                self.driver.quit()
+                self.server.__exit__()
+
+
+if __name__ == "__main__":
+    if webdriver is None or not shutil.which("chromium") or not shutil.which("chromedriver"):
+        print("skipped: there is no chromium, chromium-driver or python3-selenium")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
