@@ -5,16 +5,18 @@ ONE, AMOUNT_MOST, HEAT_MOST = 4096, 65535, 65535  # docs/automaton.md, section 1
 FREEZES_FROM = ONE - ONE // 64  # section 7
 KINDS = ("air", "solid", "liquid", "inert")
 CODES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
+MATERIAL = {"material": "B"}  # of scenes with `materials`
 
 
 def write_fields(folder, size, fields):
-    """NAME.npy for each name of CODES; the values go by the index of the cell."""
-    for name, code in CODES.items():
+    """NAME.npy for each name of fields; the values go by the index of the cell."""
+    for name, values in fields.items():
+        code = {**CODES, **MATERIAL}[name]
         header = (f"{{'descr': '{'|u1' if code == 'B' else '<u2'}', 'fortran_order': False, "
                   f"'shape': {tuple(reversed(size))}, }}")
         header += " " * (-(len(header) + 11) % 64) + "\n"
         (folder / f"{name}.npy").write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-                                             + struct.pack(f"<{len(fields[name])}{code}", *fields[name]))
+                                             + struct.pack(f"<{len(values)}{code}", *values))
 
 
 class Fields:
