@@ -202,6 +202,8 @@ class Maker:
         by_shapes = self.gives("solid", 0) or self.gives("inert", 0) or self.gives("liquid", 0.1)
         if not by_shapes:
             scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}
+            if self.wanted != "start.step" and self.chance(0.04):
+                scene["start"]["step"] = 2**31 - self.dice.randint(1, 6)
             self.first = scene["start"].get("step", 0)
         if self.gives("pieces", 0.33):  # nearly all scenes have solids
             scene["pieces"] = self.pieces()

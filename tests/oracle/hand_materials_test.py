@@ -118,6 +118,12 @@ CASES = [
     # T of a is 10000, and that of b 32767. (40000 - 10000) / 16 = 1875 and 7233 / 16 = 452.1.
     ("air sees the temperatures", BOTH, TWICE + air("exchange = 0.0625", 40000), RESTS, ["... / a#b", "... / c#d"],
      {"a": solid(20001, 1), "b": solid(60000), "c": solid(21876, 1), "d": solid(60452)}, {}, {"warmed": 4096 * 2327}),
+    # The half cell to the surface conducts as 1/16 and as 3/16 here, in a row with the 1/16 of the air: 1/32 and 3/64. n = 1:
+    # 40000 x 2048 / 65536 = 1250 and 40000 x 3072 / 65536 = 1875.
+    ("the air reaches a better conductor better", BOTH,
+     BETTER + f"heat = {{ {GAMMA}, air = {{ bottom = {50000 / 65535}, exchange = 0.0625 }} }}\n", RESTS, ["... / a#b", "... / c#d"],
+     {"a": solid(10000), "b": solid(10000, 1), "c": solid(11250), "d": solid(11875, 1)}, {"air_exchange": [2048, 3072]},
+     {"warmed": 4096 * 3125, "conducted": 0}),
     # q(20000) = 6103^2 >> 16 = 568 and q(32767) = 16383^2 >> 16 = 4095: -568 / 16 = -35.5 and -4095 / 16 = -255.9.
     ("glow sees the temperatures", BOTH, TWICE + air("glow = 0.0625", 0), RESTS, ["... / a#b", "... / c#d"],
      {"a": solid(40000, 1), "b": solid(60000), "c": solid(39964, 1), "d": solid(59744)}, {}, {"cooled": 4096 * (36 + 256)}),
