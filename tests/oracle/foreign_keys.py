@@ -1,10 +1,9 @@
 """KEYS: the range of every key of a scene that a rule reads, for foreign_scenes.py."""
 import math
 
-from foreign_sources import KEYS_OF
+from foreign_sources import KEYS_OF, LAST_STEP
 
 TINY = 1e-9  # the lowest value of a range that leaves out 0
-LAST_STEP = 2**32 - 1
 
 
 class Key:
