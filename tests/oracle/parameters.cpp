@@ -284,7 +284,9 @@ Parameters read_parameters(const std::string& path) {
   p.pieces = read_pieces(member(json, "pieces"));
   p.heat = read_heat(member(json, "heat"), p.grid[1]);
   read_materials(json, p);
-  p.freezing_point = integer(member(json, "material"), "freezing_point", 0, p.materials[0].melting_point);
+  p.freezing_point = integer(member(json, "material"), "freezing_point", 0, 65535);
+  for (const Material& material : p.materials)
+    require(material.melting_point >= p.freezing_point, "a material melts below the freezing point");
   p.vents = read_regions(member(json, "vents"), true);
   p.drains = read_regions(member(json, "drains"), false);
 
