@@ -21,7 +21,7 @@ std::uint64_t digest(const State& state) {
     ++number;
     const Int packed = cell.amount + (Int{1} << 16) * cell.energy + (Int{1} << 32) * cell.heat +
                        (Int{1} << 48) * cell.solid + (Int{1} << 49) * cell.liquid +
-                       (Int{1} << 50) * cell.inert;
+                       (Int{1} << 50) * cell.inert + (Int{1} << 51) * cell.material;
     if (packed != 0) total += m(static_cast<std::uint64_t>(packed) + 0x9E3779B97F4A7C15u * number);
   }
   return total;

@@ -1,20 +1,24 @@
 """Start fields: write_fields; and Fields, full of hostile values, for foreign_scenes.py."""
 import struct
 
+from foreign_materials import Palette
+
 ONE, AMOUNT_MOST, HEAT_MOST = 4096, 65535, 65535  # docs/automaton.md, section 1
 FREEZES_FROM = ONE - ONE // 64  # section 7
 KINDS = ("air", "solid", "liquid", "inert")
 CODES = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
+MATERIAL = {"material": "B"}  # of scenes with `materials`
 
 
 def write_fields(folder, size, fields):
-    """NAME.npy for each name of CODES; the values go by the index of the cell."""
-    for name, code in CODES.items():
+    """NAME.npy for each name of fields; the values go by the index of the cell."""
+    for name, values in fields.items():
+        code = {**CODES, **MATERIAL}[name]
         header = (f"{{'descr': '{'|u1' if code == 'B' else '<u2'}', 'fortran_order': False, "
                   f"'shape': {tuple(reversed(size))}, }}")
         header += " " * (-(len(header) + 11) % 64) + "\n"
         (folder / f"{name}.npy").write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-                                             + struct.pack(f"<{len(fields[name])}{code}", *fields[name]))
+                                             + struct.pack(f"<{len(values)}{code}", *values))
 
 
 class Fields:
@@ -23,11 +27,11 @@ class Fields:
     def __init__(self, scene, dice):
         self.size, self.dice = scene["grid"]["size"], dice
         self.fields = {name: [] for name in CODES}
-        material = scene["material"]
-        melting_point = round(material.get("melting_point", 0.5) * HEAT_MOST)
-        melts = melting_point + round(material.get("latent_heat", 0) * HEAT_MOST)
-        self.freezes = round(material.get("freezing_point", 0) * HEAT_MOST)
-        near = [h + d for h in (melting_point, melts, self.freezes) for d in (-1, 0, 1)]
+        self.palette = Palette(scene, dice)
+        if "materials" in scene and dice.random() < 0.9:  # without the field all solids are of material 0
+            self.fields["material"] = []
+        self.freezes = round(scene["material"].get("freezing_point", 0) * HEAT_MOST)
+        near = [h + d for h in (*self.palette.near(), self.freezes) for d in (-1, 0, 1)]
         self.heats = [0, 1, HEAT_MOST - 1, HEAT_MOST, *(h for h in near if 0 <= h <= HEAT_MOST)]
         self.amounts = [1, 2, ONE // 2, FREEZES_FROM - 1, FREEZES_FROM, ONE - 1, ONE, ONE + 1, 2 * ONE, 8 * ONE, 11 * ONE, AMOUNT_MOST - 1, AMOUNT_MOST]
         self.most = dice.choice((ONE, ONE, 2 * ONE, AMOUNT_MOST))
@@ -36,7 +40,6 @@ class Fields:
         self.walls = dice.random() < 0.3  # isothermal ones
         self.layered, self.blocked = dice.random() < 0.5, dice.random() < 0.4
         self.adrift = "pieces" in scene and dice.random() < 0.8
-        self.melts = melts
         self.cools = self.freezes > 0 and dice.random() < 0.6  # most liquid is not much warmer than where it freezes
         self.cold_walls = self.cools and self.walls and dice.random() < 0.7
         self.fill()
@@ -94,6 +97,7 @@ class Fields:
     def add(self, kind, amount=None):
         """A cell of this kind; without an amount, a random one."""
         energy = heat = 0
+        material = self.palette.draw() if kind == "solid" and "material" in self.fields else 0
         if kind == "inert":  # a bed offset
             amount = self.dice.choice((0, 2047, 2048, 2049, 4095, self.dice.randint(0, 4095)))
             most = self.freezes if self.cold_walls else HEAT_MOST
@@ -104,10 +108,10 @@ class Fields:
             heat = self.dice.randint(self.freezes, min(HEAT_MOST, self.freezes + HEAT_MOST // 16))
             amount = self.dice.choice((amount, self.dice.randint(FREEZES_FROM - 2, ONE)))
         if kind == "solid" and self.adrift and self.dice.random() < 0.9:
-            heat = self.dice.randint(0, max(0, self.melts - 1))  # else bodies melt at once
+            heat = self.dice.randint(0, max(0, self.palette.melts[material] - 1))  # else bodies melt at once
         if kind == "liquid":
             energy = self.dice.choice((0, 1, amount - 1, amount, self.dice.randint(0, amount)))
-        cell = {"amount": amount or 0, "energy": min(energy, amount or 0), "heat": heat}
+        cell = {"amount": amount or 0, "energy": min(energy, amount or 0), "heat": heat, "material": material}
         for name, values in self.fields.items():
             values.append(cell.get(name, int(name == kind)))
 

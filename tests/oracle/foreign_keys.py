@@ -1,10 +1,9 @@
 """KEYS: the range of every key of a scene that a rule reads, for foreign_scenes.py."""
 import math
 
-from foreign_sources import KEYS_OF
+from foreign_sources import KEYS_OF, LAST_STEP
 
 TINY = 1e-9  # the lowest value of a range that leaves out 0
-LAST_STEP = 2**32 - 1
 
 
 class Key:
@@ -55,6 +54,10 @@ KEYS = {
     "material.melting_point": Key(TINY, 1, 0.2, 0.7, 1 / 65535, 0.5),
     "material.latent_heat": Key(0, 1, 0.0, 0.3, 1 / 65535),
     "material.freezing_point": Key(TINY, 1, 0.15, 0.6, 1 / 65535, 0.5),
+    "materials.melting_point": Key(TINY, 1, 0.1, 0.7, 1 / 65535, 0.5),
+    "materials.latent_heat": Key(0, 1, 0.0, 0.3, 1 / 65535),
+    "materials.conductivity": Key(0, 256, 0.05, 3.0, 1, 0.5, 2, 0.001),
+    "materials.capacity": Key(1, 16, 1.0, 3.0, 2, 4, 15.99),
     "pieces.fall": Choice(False, True),
     "pieces.in_liquid": Key(1, 1024, 1, 5, 2, 3, 1023),
     "pieces.density": Key(1 / 65536, 1, 0.2, 1.0, 65535 / 65536, 0.5),

@@ -12,7 +12,7 @@ from foreign_keys import KEYS, TINY
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/scenes.md"
 TABLES = {"The run": [], "Heat": ["heat"], "Flow": ["flow"], "Pieces": ["pieces"], "Vents, drains": ["vent", "drain"]}  # by section
-NO_RULE = {"title", "description", "extends", "run.steps", "run.frame_every", "start.fields"}
+NO_RULE = {"title", "description", "extends", "run.steps", "run.frame_every", "start.fields", "materials.name", "materials.color"}
 HAS_ROWS = {"heat_source.keyframes"}  # a table: its keys have rows
 NOT_IN_A_TABLE = re.compile(r"heat_source\.keyframes\.|(solid|liquid|inert)\.")  # rows; the page states them elsewhere
 RANGE = re.compile(r"(?:whole, )?(-?\d+(?:\.\d+)?)( <)? ?\.\. ?(\d+(?:\.\d+)?)(?: each)?")

@@ -14,6 +14,7 @@ sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.in
 from foreign_columns import Columns
 from foreign_fields import HEAT_MOST, Fields
 from foreign_keys import ENDS, KEYS, LAST_STEP, TINY
+from foreign_materials import bound_conductivity, materials
 from foreign_sources import source
 
 
@@ -26,6 +27,7 @@ class Maker:
         self.wanted, self.end = ENDS[41 * seed % len(ENDS)]  # 41: neighbouring seeds take different keys
         self.size = self.make_size()
         self.first = 0
+        self.materials = []
 
     def gives(self, table, probability):
         """Whether the scene has this table or key."""
@@ -110,6 +112,8 @@ class Maker:
 
     def heat(self, freezing_point):
         heat = self.some("heat", "neighbours", "gamma", "convection", "visibility_every", "rays_per_face")
+        if self.wanted == "materials.conductivity":
+            heat["gamma"] = 0.002  # that of the best conductor is 0.512
         if self.gives("heat.air", 0.7 if freezing_point else 0.5):
             heat["air"] = self.air(freezing_point)
         return heat
@@ -117,7 +121,7 @@ class Maker:
     def region(self, table):
         region = {"at": self.at(f"{table}.at"), "radius": self.draw(f"{table}.radius"), "rate": self.draw(f"{table}.rate")}
         if self.gives(f"{table}.from", 0.3):
-            region["from"] = self.step(f"{table}.from")
+            region["from"] = min(LAST_STEP - 1, self.step(f"{table}.from"))
         if self.gives(f"{table}.until", 0.3):
             region["until"] = max(region.get("from", 0) + 1, self.step(f"{table}.until"))
         if table == "vent":
@@ -182,6 +186,8 @@ class Maker:
         shape["at"] = [round(self.dice.uniform(0, side), 2) for side in self.size]
         if kind in ("solid", "liquid"):
             shape.update(self.some(kind, "temperature", given=0.9))
+        if kind == "solid" and self.materials and self.chance(0.7):
+            shape["material"] = self.dice.choice(self.materials)["name"]
         if kind == "liquid":
             shape.update(self.some(kind, "amount"))
             if self.gives("liquid.energy", 0.4):
@@ -191,17 +197,23 @@ class Maker:
 
     def scene(self):
         scene = {"title": "foreign", "grid": {"size": self.size, **self.some("grid", "border", given=0.5)}, "run": self.some("run", "seed"), "material": self.material()}
+        if self.gives("materials", 0.4):
+            scene["materials"] = self.materials = materials(self, scene["material"])
         by_shapes = self.gives("solid", 0) or self.gives("inert", 0) or self.gives("liquid", 0.1)
         if not by_shapes:
             scene["start"] = {"fields": "fields", **self.some("start", "step", given=0.8)}
+            if self.wanted != "start.step" and self.chance(0.04):
+                scene["start"]["step"] = 2**31 - self.dice.randint(1, 6)
             self.first = scene["start"].get("step", 0)
         if self.gives("pieces", 0.33):  # nearly all scenes have solids
             scene["pieces"] = self.pieces()
         sources = self.gives("heat_source", 0.5)
-        if sources or self.gives("heat", 0.9 if "freezing_point" in scene["material"] else 0.6):
+        often = self.materials or "freezing_point" in scene["material"]
+        if sources or self.gives("heat", 0.9 if often else 0.6) or self.wanted == "materials.conductivity":
             scene["heat"] = self.heat(scene["material"].get("freezing_point", 0))
             if sources:
                 scene["heat_source"] = [source(self) for _ in range(self.dice.randint(1, 4))]
+        bound_conductivity(self.materials, scene.get("heat", {}))
         for table in ("vent", "drain"):
             if self.gives(table, 0.4):
                 scene[table] = [self.region(table) for _ in range(self.dice.randint(1, 3))]

@@ -4,6 +4,7 @@ and the counters of section 10.
 
   foreign_scenes_test.py VOXMELT ORACLE FIRST LAST             the scenes of these seeds
   foreign_scenes_test.py VOXMELT ORACLE FIRST LAST --covering  also: every range was used at both ends, and more
+  foreign_scenes_test.py VOXMELT ORACLE FIRST LAST --only NAME,NAME  by these implementations alone
 
 Ends with 1 at the first scene that differs, keeps its folder and says how to run it again.
 """
@@ -28,6 +29,10 @@ LEDGERS = ("mass", "energy", "heat")
 COUNTERS = ("cells", "mass", "limited_cells", "limited_mass")  # in the order of the oracle's line
 FREEZE = ("a cell freezes", "a cell is set", "a set cell does not give", "a set cell does not fall",
           "nothing flows back from a set cell", "a frozen cell melts")  # likewise
+MATERIALS = ("a pair of two materials conducts", "a wall and another material conduct", "top bounds a temperature",
+             "what melts takes heat", "what melts keeps its heat", "what melts gives heat", "its heat is cut at 65535",
+             "a bed of another material", "a partly molten bed of another material", "another material falls as a piece",
+             "air or glow warms or cools another material")  # likewise
 MOST_WORK = 1000000  # cells x sub-steps x steps of a run of more than one step
 MANY_SUBSTEPS = 20
 CASTERS = ("auto", "walk", "two-level")  # of voxmelt --visibility
@@ -47,18 +52,20 @@ def output(*command):
 
 
 def implementations(voxmelt):
-    """Names of those that this processor can run."""
+    """Names of those that this processor can run, or of those asked for."""
+    if "--only" in sys.argv:
+        return sys.argv[sys.argv.index("--only") + 1].split(",")
     return [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
 
 
 def of_oracle(oracle, start, steps, fields):
-    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; and what happens to pairs, to pieces
-    and where it is cold."""
+    """Its digest lines; for each ledger (start, terms..., what the state holds); the counters; and what happens to pairs, to pieces,
+    where it is cold and to materials."""
     lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", fields)
     digests = [line for line in lines if line.startswith("step")]
     ledgers = {line.split()[1]: [int(n) for n in line.split()[2:]] for line in lines if line.startswith("ledger")}
     counters, *moves = (next([int(n) for n in line.split()[1:]] for line in lines if line.startswith(word))
-                        for word in ("counters", "pairs", "pieces", "freeze"))
+                        for word in ("counters", "pairs", "pieces", "freeze", "materials"))
     return digests, ledgers, counters, moves
 
 
@@ -95,7 +102,7 @@ def field(folder, name):
 
 def events(scene, steps, digests, moves, report, start, end):
     """What may happen in a scene, by name, and whether it did in this one."""
-    pairs, pieces, freeze = moves
+    pairs, pieces, freeze, materials = moves
     first, side = scene.get("start", {}).get("step", 0), scene["grid"]["size"][0]
     moved = sum(abs(a - b) for a, b in zip(field(start, "amount"), field(end, "amount")))
     solids = [int(line.split()[7]) for line in (digests[0], digests[-1])]
@@ -118,7 +125,8 @@ def events(scene, steps, digests, moves, report, start, end):
         "a relaxed pair flows back": pairs[1] > 0,
         "a shut pair would give": pairs[2] > 0,
         "a piece falls": pieces[0] > 0, "a piece wades": pieces[1] > 0, "a piece floats": pieces[2] > 0,
-        **{name: count > 0 for name, count in zip(FREEZE, freeze)},
+        **{name: count > 0 for name, count in (*zip(FREEZE, freeze), *zip(MATERIALS, materials))},
+        "2 materials": len(scene.get("materials", [])) == 1, "16 materials": len(scene.get("materials", [])) == 15,
         "many sub-steps": most_substeps(scene) > MANY_SUBSTEPS,
         "several kinds of sources": len({s.get("kind", "point") for s in sources}) > 1,
         **{f"keyframes of a {s.get('kind', 'point')}": True for s in changing},

@@ -14,6 +14,8 @@ def keys_of_kinds(page):
 
 KEYS_OF = keys_of_kinds(PAGE)
 MOST_POWER, MOST_DIRECTION = 4194303, 10**6
+LAST_STEP = 2**32 - 1
+LONGEST_TURN = 5  # pairs of steps in which a sun turns back
 BRIGHT = 30  # cells: most powers that are drawn light a cell so far away, without being cut
 
 
@@ -76,9 +78,10 @@ def source(maker):
     if plain or not maker.gives(frame, 0.5):
         return {**named, **numbers_of(maker, kind, "heat_source")}
     turns_back = kind == "directional" and not maker.wanted.startswith(frame) and maker.chance(0.4)
+    turns_back = turns_back and maker.first + 2 * LONGEST_TURN <= LAST_STEP
     steps = {maker.step(f"{frame}.step") for _ in range(maker.dice.randint(1, 4))}
     if turns_back:
-        steps = {maker.first, maker.first + 2 * maker.dice.randint(1, 5)}
+        steps = {maker.first, maker.first + 2 * maker.dice.randint(1, LONGEST_TURN)}
     frames = [{"step": step, **numbers_of(maker, kind, frame)} for step in sorted(steps)]
     if turns_back:  # in the middle, D is short or 0: only then a ray needs many D to leave the grid
         longest = max(map(abs, frames[0]["direction"]))

@@ -15,10 +15,17 @@ const std::vector<Axis> CORNERS = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1
 
 // Returns T(h).
 Int temperature(const State& state, Int i) {
-  const Int h = state.cells[i].heat;
-  const Int melting_point = state.parameters.melting_point;
-  if (h <= melting_point) return h;
-  return larger(melting_point, h - state.parameters.latent_heat);
+  const Cell& cell = state.cells[i];
+  return smaller(state.parameters.top, state.material(cell).unbound_temperature(cell.heat));
+}
+
+void count_bound_temperatures(State& state) {
+  if (!state.parameters.several_materials) return;
+  for (const Int i : state.list) {
+    const Cell& cell = state.cells[i];
+    if (state.matter(i) && state.material(cell).unbound_temperature(cell.heat) > state.parameters.top)
+      ++state.material_counts.bound;
+  }
 }
 
 // Adds the changes to the cells' heat and empties them.
@@ -37,29 +44,39 @@ Int neighbour(const State& state, Int i, const Axis& axis, Int steps) {
   return state.inside(x, y, z) ? state.index(x, y, z) : -1;
 }
 
-void conduct(State& state, const std::vector<Axis>& axes, Int weight, std::vector<Int>& changes) {
+using Weights = std::vector<Int> Material::*;
+
+void conduct(State& state, const std::vector<Axis>& axes, Weights weights, std::vector<Int>& changes) {
   const Int n = static_cast<Int>(axes.size());
   std::vector<Int> offsets;
   for (Int k = 0; k < n; ++k) offsets.push_back(dither(state.step, k, n));
   HeatLedger& ledger = state.ledgers.heat;
+  MaterialCounts& counts = state.material_counts;
   for (const Int i : state.list) {
     if (!state.matter(i)) continue;
     const Int amount = state.cells[i].amount;
+    const Int own = state.cells[i].material;
+    const std::vector<Int>& weights_of_cell = state.parameters.materials[own].*weights;
     for (Int k = 0; k < n; ++k) {
       // This is F of the pair p, q = p + axis k.
-      const auto flow = [&](Int p, Int q) {
+      const auto flow = [&](Int p, Int q, Int weight) {
         return scaled(temperature(state, q) - temperature(state, p), weight, offsets[k]);
       };
       const Int ahead = neighbour(state, i, axes[k], 1), behind = neighbour(state, i, axes[k], -1);
       if (ahead >= 0 && state.matter(ahead)) {
-        const Int F = flow(i, ahead);
+        const Int other = state.cells[ahead].material;
+        const Int F = flow(i, ahead, weights_of_cell[other]);
+        if (other != own && F != 0) ++counts.pairs;
         changes[i] += F;
         changes[ahead] -= F;
         ledger.conducted += (amount - state.cells[ahead].amount) * F;
       }
+      // A wall is of the cell's material here.
+      const Int to_wall = weights_of_cell[own];
       Int from_walls = 0;
-      if (ahead >= 0 && state.isothermal_wall(ahead)) from_walls += flow(i, ahead);
-      if (behind >= 0 && state.isothermal_wall(behind)) from_walls -= flow(behind, i);
+      if (ahead >= 0 && state.isothermal_wall(ahead)) from_walls += flow(i, ahead, to_wall);
+      if (behind >= 0 && state.isothermal_wall(behind)) from_walls -= flow(behind, i, to_wall);
+      if (own != 0 && from_walls != 0) ++counts.walls;
       changes[i] += from_walls;
       ledger.walls += amount * from_walls;
     }
@@ -103,20 +120,21 @@ Int airy_axes(const State& state, Place p) {
   return n;
 }
 
-// Lets each cell of matter beside air gain scaled(difference(its place, its T), w). w is `rate` by the area
-// that air sees.
-template <typename Difference>
-void gain_through_surface(State& state, Int rate, Difference difference, const char* name) {
+// Lets each cell of matter beside air gain scaled(difference(its place, its T), w). w is rate(the cell) by
+// the area that air sees.
+template <typename Rate, typename Difference>
+void gain_through_surface(State& state, Rate rate, Difference difference, const char* name) {
   for (const Int i : state.list) {
     if (!state.matter(i)) continue;
     const Place p = state.place(i);
     const Int n = airy_axes(state, p);
     if (n == 0) continue;
     Cell& cell = state.cells[i];
-    const Int w = (rate * (3 + n)) >> 2;
+    const Int w = (rate(cell) * (3 + n)) >> 2;
     const Int wanted = scaled(difference(p, temperature(state, i)), w, state.offset);
     const Int gained = smaller(wanted, 65535 - cell.heat);
     cell.heat += gained;
+    if (cell.material != 0 && gained != 0) ++state.material_counts.aired;
     if (gained > 0) state.ledgers.heat.warmed += cell.amount * gained;
     if (gained < 0) state.ledgers.heat.cooled -= cell.amount * gained;
     check_cell(state, i, name);
@@ -126,7 +144,8 @@ void gain_through_surface(State& state, Int rate, Difference difference, const c
 void exchange_with_air(State& state) {
   const Heat& rules = state.parameters.heat;
   const auto difference = [&](Place p, Int T) { return rules.air_temperature[p.y] - T; };
-  gain_through_surface(state, rules.air_exchange, difference, "after the exchange with air");
+  const auto rate = [&](const Cell& cell) { return state.material(cell).air_exchange; };
+  gain_through_surface(state, rate, difference, "after the exchange with air");
 }
 
 // Returns q(t), which goes with the fourth power of a temperature.
@@ -139,7 +158,8 @@ void glow(State& state) {
   const Heat& rules = state.parameters.heat;
   const Int sky = fourth_power(rules.air_sky);
   const auto difference = [&](Place, Int T) { return sky - fourth_power(T); };
-  gain_through_surface(state, rules.air_glow, difference, "after glow");
+  const auto rate = [&](const Cell&) { return rules.air_glow; };
+  gain_through_surface(state, rate, difference, "after glow");
 }
 
 }  // namespace
@@ -148,9 +168,10 @@ void heat(State& state) {
   const Heat& rules = state.parameters.heat;
   if (!rules.enabled) return;
   std::vector<Int> changes(state.cells.size(), 0);
-  conduct(state, FACES, rules.weight_face, changes);
-  if (rules.neighbours >= 18) conduct(state, EDGES, rules.weight_edge, changes);
-  if (rules.neighbours == 26) conduct(state, CORNERS, rules.weight_corner, changes);
+  count_bound_temperatures(state);
+  conduct(state, FACES, &Material::weight_face, changes);
+  if (rules.neighbours >= 18) conduct(state, EDGES, &Material::weight_edge, changes);
+  if (rules.neighbours == 26) conduct(state, CORNERS, &Material::weight_corner, changes);
   if (rules.convection > 0) convect(state, changes);
   if (rules.radiation) radiate(state);
   if (rules.air) exchange_with_air(state);

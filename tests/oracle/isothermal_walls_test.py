@@ -50,7 +50,7 @@ REFUSED = {  # size, cells, what differs, what the oracle says
 
 def parameters(size, step=0, neighbours=6, walls=True):
     return {
-        "grid": size, "border": "closed", "step": step, "seed": 1, "material": {"melting_point": 20000, "latent_heat": 16000, "freezing_point": 0},
+        "grid": size, "border": "closed", "step": step, "seed": 1, "material": {"melting_point": 20000, "latent_heat": 16000, "freezing_point": 0}, "materials": [],
         "heat": {"enabled": True, "neighbours": neighbours, "weight_face": 8192, "weight_edge": 4096, "weight_corner": 2048,
                  "convection": 0, "walls": walls, "radiation": False, "air": False},
         "pieces": {"fall": False, "in_liquid": 1, "density": 65536}, "vents": [], "drains": [],

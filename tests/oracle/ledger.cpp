@@ -65,7 +65,7 @@ std::string ledger_lines(const Ledgers& ledgers) {
          line("ledger energy", {e.start, e.melted, e.frozen, e.added, e.removed, e.reheated, e.accelerated,
                                 e.dissipated, e.capped, e.held}) +
          line("ledger heat", {h.start, h.conducted, h.walls, h.convected, h.radiated, h.warmed, h.cooled,
-                              h.added, h.removed, h.rounded, h.held});
+                              h.melted, h.added, h.removed, h.rounded, h.held});
 }
 
 std::string counters_line(const Counters& counters) {
@@ -83,6 +83,12 @@ std::string pieces_line(const PieceCounts& counts) {
 std::string freeze_line(const FreezeCounts& counts) {
   return line("freeze",
               {counts.frozen, counts.set, counts.kept, counts.hung, counts.not_back, counts.melted_again});
+}
+
+std::string materials_line(const MaterialCounts& counts) {
+  return line("materials",
+              {counts.pairs, counts.walls, counts.bound, counts.raised, counts.kept, counts.lowered,
+               counts.cut, counts.beds, counts.molten_beds, counts.moved, counts.aired});
 }
 
 Sum mass_held(const State& state) { return held_by(state).mass; }

@@ -23,9 +23,10 @@ struct EnergyLedger {
 
 struct HeatLedger {
   Sum start = 0, conducted = 0, walls = 0, convected = 0, radiated = 0, warmed = 0, cooled = 0;
-  Sum added = 0, removed = 0, rounded = 0, held = 0;
+  Sum melted = 0, added = 0, removed = 0, rounded = 0, held = 0;
   bool balances() const {
-    return start + conducted + walls + convected + radiated + warmed - cooled + added - removed + rounded ==
+    return start + conducted + walls + convected + radiated + warmed - cooled + melted + added - removed +
+               rounded ==
            held;
   }
 };
@@ -60,6 +61,17 @@ struct FreezeCounts {
   Sum frozen = 0, set = 0, kept = 0, hung = 0, not_back = 0, melted_again = 0;
 };
 
+// Counts what happens to materials other than 0 (sections 6, 7, 10 and 15): flows between cells of two
+// materials, and between such a solid and a wall; solids and liquids whose temperature is that of `top`, when
+// conduction begins; what melts, by its heat: that rises, stays, falls or is cut at 65535; runs on the bed of
+// such a solid, and of one that is partly molten; such cells in pieces that move; and such that air or glow
+// warms or cools.
+struct MaterialCounts {
+  Sum pairs = 0, walls = 0, bound = 0;
+  Sum raised = 0, kept = 0, lowered = 0, cut = 0;
+  Sum beds = 0, molten_beds = 0, moved = 0, aired = 0;
+};
+
 void open_ledgers(State& state);   // sets start
 void close_ledgers(State& state);  // sets held
 std::string ledger_lines(const Ledgers& ledgers);
@@ -67,6 +79,7 @@ std::string counters_line(const Counters& counters);
 std::string pairs_line(const PairCounts& counts);
 std::string pieces_line(const PieceCounts& counts);
 std::string freeze_line(const FreezeCounts& counts);
+std::string materials_line(const MaterialCounts& counts);
 Sum mass_held(const State& state);
 
 }  // namespace oracle

@@ -107,7 +107,8 @@ void run(const Options& options) {
   close_ledgers(state);
   if (options.ledger)
     std::cout << ledger_lines(state.ledgers) << counters_line(state.counters) << pairs_line(state.pair_counts)
-              << pieces_line(state.piece_counts) << freeze_line(state.freeze_counts) << std::flush;
+              << pieces_line(state.piece_counts) << freeze_line(state.freeze_counts)
+              << materials_line(state.material_counts) << std::flush;
   if (!options.fields.empty()) {
     std::filesystem::create_directories(options.fields);
     write_fields(state, options.fields);

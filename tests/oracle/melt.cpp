@@ -41,8 +41,25 @@ void freeze(State& state, Int i) {
   ++state.freeze_counts.frozen;
 }
 
+// Lets what melts go on at its temperature as material 0 does.
+void become_material_0(State& state, Cell& cell) {
+  const Material& own = state.material(cell);
+  const Material& other = state.parameters.materials[0];
+  const bool lower = own.melting_point <= other.melting_point;
+  const Int H = lower ? own.melting_point : own.melting_point + other.latent_heat;
+  const Int wanted = cell.heat - own.F + H;
+  const Int h = smaller(65535, wanted);
+  MaterialCounts& counts = state.material_counts;
+  if (wanted > h) ++counts.cut;
+  ++(h > cell.heat ? counts.raised : h < cell.heat ? counts.lowered : counts.kept);
+  state.ledgers.heat.melted += cell.amount * (h - cell.heat);
+  cell.heat = h;
+  cell.material = 0;
+}
+
 void melt_solid(State& state, Int i) {
   Cell& cell = state.cells[i];
+  if (cell.material != 0) become_material_0(state, cell);
   cell.solid = 0;
   cell.liquid = 1;
   state.melted_in[i] = state.step;
@@ -66,7 +83,7 @@ void melt(State& state) {
   const std::vector<Int> freezing = set_and_find_freezing(state);
   for (const Int i : state.list) {
     Cell& cell = state.cells[i];
-    if (!state.matter(i) || cell.heat < parameters.melting_point + parameters.latent_heat) continue;
+    if (!state.matter(i) || cell.heat < state.material(cell).F) continue;
     if (cell.solid == 1)
       melt_solid(state, i);
     else if (parameters.paper_law && parameters.paper.reheat > 0)

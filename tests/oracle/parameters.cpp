@@ -149,6 +149,76 @@ Heat read_heat(const Json& json, Int ny) {
   return heat;
 }
 
+// Without `materials` there is one, which no pair tells from another one.
+Material only_material(const Json& json, const Heat& heat) {
+  Material material;
+  material.melting_point = integer(json, "melting_point", 0, 65535);
+  material.latent_heat = integer(json, "latent_heat", 0, 65535 - material.melting_point);
+  material.find_F();
+  material.air_exchange = heat.air_exchange;
+  material.weight_face = {heat.weight_face};
+  material.weight_edge = {heat.weight_edge};
+  material.weight_corner = {heat.weight_corner};
+  return material;
+}
+
+std::vector<Int> read_weights(const Json& row, const char* key, Int most, std::size_t materials) {
+  const std::vector<Int> weights = integers(member(row, key), key, 0, most);
+  require(weights.size() == materials, std::string(key) + " has not a number for each material");
+  return weights;
+}
+
+Material read_material(const Json& row, std::size_t materials) {
+  Material material;
+  material.melting_point = integer(row, "melting_point", 0, 65535);
+  material.latent_heat = integer(row, "latent_heat", 0, 65535);
+  material.warmth = integer(row, "warmth", 4096, 65536);
+  material.find_F();
+  material.air_exchange = integer(row, "air_exchange", 0, 43690);
+  material.weight_face = read_weights(row, "weight_face", 10922, materials);
+  material.weight_edge = read_weights(row, "weight_edge", 5461, materials);
+  material.weight_corner = read_weights(row, "weight_corner", 3640, materials);
+  require(material.F <= 65535, "a material needs more heat than 65535 to melt");
+  return material;
+}
+
+// A pair has one weight, whichever of its cells it is looked up by.
+void require_symmetry(const std::vector<Material>& materials) {
+  for (std::size_t a = 0; a < materials.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      require(materials[a].weight_face[b] == materials[b].weight_face[a] &&
+                  materials[a].weight_edge[b] == materials[b].weight_edge[a] &&
+                  materials[a].weight_corner[b] == materials[b].weight_corner[a],
+              "a pair of materials has two weights");
+}
+
+// The first row repeats `material` and `heat`, as far as these are used.
+void require_repetition(const Material& first, const Material& alone, const Heat& heat) {
+  require(first.melting_point == alone.melting_point && first.latent_heat == alone.latent_heat &&
+              first.warmth == 65536,
+          "materials[0] is not `material`");
+  if (!heat.enabled) return;
+  require(first.weight_face[0] == heat.weight_face && first.weight_edge[0] == heat.weight_edge &&
+              first.weight_corner[0] == heat.weight_corner &&
+              (!heat.air || first.air_exchange == heat.air_exchange),
+          "materials[0] is not `heat`");
+}
+
+void read_materials(const Json& json, Parameters& p) {
+  const Material alone = only_material(member(json, "material"), p.heat);
+  const Json& rows = member(json, "materials");
+  require(rows.is_array() && rows.size() != 1 && rows.size() <= 16, "materials has not 0 or 2..16 rows");
+  p.several_materials = !rows.empty();
+  for (const Json& row : rows) p.materials.push_back(read_material(row, rows.size()));
+  if (p.several_materials) {
+    require_symmetry(p.materials);
+    require_repetition(p.materials[0], alone, p.heat);
+    p.top = top_of(p.materials);
+  } else {
+    p.materials = {alone};
+  }
+}
+
 PiecesFall read_pieces(const Json& json) {
   PiecesFall pieces;
   pieces.fall = yes(json, "fall");
@@ -211,11 +281,12 @@ Parameters read_parameters(const std::string& path) {
   p.open_border = border == "open";
   p.step = integer(json, "step", 0, MOST);
   p.seed = read_seed(member(json, "seed"));
-  p.melting_point = integer(member(json, "material"), "melting_point", 0, 65535);
-  p.latent_heat = integer(member(json, "material"), "latent_heat", 0, 65535 - p.melting_point);
-  p.freezing_point = integer(member(json, "material"), "freezing_point", 0, p.melting_point);
   p.pieces = read_pieces(member(json, "pieces"));
   p.heat = read_heat(member(json, "heat"), p.grid[1]);
+  read_materials(json, p);
+  p.freezing_point = integer(member(json, "material"), "freezing_point", 0, 65535);
+  for (const Material& material : p.materials)
+    require(material.melting_point >= p.freezing_point, "a material melts below the freezing point");
   p.vents = read_regions(member(json, "vents"), true);
   p.drains = read_regions(member(json, "drains"), false);
 

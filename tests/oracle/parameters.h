@@ -1,6 +1,7 @@
 // The parameters are those that parameters.json names (docs/automaton.md section 14).
 #pragma once
 #include "arithmetic.h"
+#include "material.h"
 
 #include <array>
 #include <cstdint>
@@ -89,8 +90,11 @@ struct Parameters {
   bool open_border = false;
   Int step = 0;
   std::uint64_t seed = 0;
-  Int melting_point = 0, latent_heat = 0;
-  Int freezing_point = 0;  // 0: nothing freezes
+  // One at least: without `materials` that of `material` and `heat` alone.
+  std::vector<Material> materials;
+  bool several_materials = false;  // the scene has `materials`
+  Int top = 65535;                 // the highest temperature (section 6)
+  Int freezing_point = 0;          // 0: nothing freezes
   PiecesFall pieces;
   Heat heat;
   std::vector<Region> vents, drains;

@@ -140,7 +140,10 @@ void pieces_fall(State& state) {
   std::vector<bool> moving(state.cells.size(), false);
   for (const Piece& piece : pieces.all) {
     if (!moves(state, piece, pieces.number)) continue;
-    for (const Int i : piece.cells) moving[i] = true;
+    for (const Int i : piece.cells) {
+      moving[i] = true;
+      if (state.cells[i].material != 0) ++state.material_counts.moved;
+    }
   }
   for (const Piece& piece : pieces.all)
     for (const Int i : piece.cells)

@@ -8,13 +8,13 @@ namespace oracle {
 namespace {
 
 // Returns `part` of section 10 for a solid cell: how much of it its heat has left unmelted, in 1/ONE.
-Int unmelted_part(const Parameters& parameters, const Cell& cell) {
-  const Int melts = parameters.melting_point + parameters.latent_heat;
-  const Int W = larger(parameters.latent_heat, ONE);
+Int unmelted_part(const State& state, const Cell& cell) {
+  const Material& material = state.material(cell);
+  const Int W = larger(material.latent_heat, ONE);
   Int power = 1;  // 2^k
   while (W * power * 2 < 65536) power *= 2;
   const Int w = W * power;
-  const Int lack = parameters.heat.enabled ? smaller(W, larger(0, melts - cell.heat)) : W;
+  const Int lack = state.parameters.heat.enabled ? smaller(W, larger(0, material.F - cell.heat)) : W;
   const Int scale = ((Int{1} << 28) + w - 1) / w;
   return (power * lack * scale) >> 16;
 }
@@ -24,7 +24,7 @@ Int bed_offset(const State& state, Int x, Int y, Int z) {
   if (!state.inside(x, y, z)) return FLAT;
   const Cell& cell = state.cells[state.index(x, y, z)];
   if (cell.inert == 1) return cell.amount;
-  return ((smaller(cell.amount, 6143) * unmelted_part(state.parameters, cell)) >> 12) - 2048;
+  return ((smaller(cell.amount, 6143) * unmelted_part(state, cell)) >> 12) - 2048;
 }
 
 // Returns the height of the surface below the cell (x, y, z), in 1/512 cell.
@@ -208,7 +208,17 @@ void count(Counters& counters, const Run& shown, Int M) {
   counters.limited_mass += M;
 }
 
+void count_bed(State& state, const Unsettled& run) {
+  const Place p = state.place(run.cells[0]);
+  if (p.y == 0) return;
+  const Cell& below = state.cells[state.index(p.x, p.y - 1, p.z)];
+  if (below.material == 0) return;
+  ++state.material_counts.beds;
+  if (unmelted_part(state, below) < ONE) ++state.material_counts.molten_beds;
+}
+
 void settle_run(State& state, const Unsettled& run) {
+  count_bed(state, run);
   const FaceFlows flows = face_flows(state, run);
   if (flows.keep_order)
     move_through_faces(state, run.cells, flows);

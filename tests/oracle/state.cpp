@@ -29,10 +29,12 @@ State read_state(const std::string& folder) {
   const Field fields[] = {{"solid", 1, &Cell::solid},   {"liquid", 1, &Cell::liquid},
                           {"inert", 1, &Cell::inert},   {"amount", 2, &Cell::amount},
                           {"energy", 2, &Cell::energy}, {"heat", 2, &Cell::heat}};
-  for (const Field& field : fields) {
+  const auto read = [&](const Field& field) {
     const std::vector<Int> values = read_npy(folder + "/" + field.name + ".npy", shape, field.width);
     for (Int i = 0; i < count; ++i) state.cells[i].*field.member = values[i];
-  }
+  };
+  for (const Field& field : fields) read(field);
+  if (state.parameters.several_materials) read({"material", 1, &Cell::material});
 
   state.irradiance.resize(count);
   for (std::vector<Int>* steps : {&state.melted_in, &state.frozen_in, &state.set_in})
@@ -64,6 +66,7 @@ void write_fields(const State& state, const std::string& folder) {
   write("amount", 2, &Cell::amount);
   write("energy", 2, &Cell::energy);
   write("heat", 2, &Cell::heat);
+  if (state.parameters.several_materials) write("material", 1, &Cell::material);
 }
 
 bool is_open(const State& state, Place from, const Direction& d) {
@@ -105,13 +108,18 @@ void check_cell(const State& state, Int i, const char* when) {
     wrong = "heat without heat.enabled";
   else if (!state.parameters.heat.walls && state.isothermal_wall(i))
     wrong = "an isothermal wall without heat.walls";
+  else if (cell.material < 0 || cell.material >= static_cast<Int>(state.parameters.materials.size()))
+    wrong = "a material that is not there";
+  else if (cell.solid == 0 && cell.material != 0)
+    wrong = "a material of its own in what is not solid";
   if (wrong == nullptr) return;
   const Place p = state.place(i);
   throw Violation("step " + std::to_string(state.step) + ", " + when + ": cell (" + std::to_string(p.x) +
                   ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + "): " + wrong + " (solid " +
                   std::to_string(cell.solid) + " inert " + std::to_string(cell.inert) + " liquid " +
                   std::to_string(cell.liquid) + " amount " + std::to_string(cell.amount) + " energy " +
-                  std::to_string(cell.energy) + " heat " + std::to_string(cell.heat) + ")");
+                  std::to_string(cell.energy) + " heat " + std::to_string(cell.heat) + " material " +
+                  std::to_string(cell.material) + ")");
 }
 
 void check_all(const State& state, const char* when) {

@@ -19,6 +19,7 @@ struct Violation : std::runtime_error {
 struct Cell {
   Int solid = 0, inert = 0, liquid = 0;
   Int amount = 0, energy = 0, heat = 0;
+  Int material = 0;  // m
 };
 
 // Holds what a cell gives and takes in one spread (sections 9 and 11).
@@ -69,6 +70,7 @@ struct State {
   PairCounts pair_counts;
   PieceCounts piece_counts;
   FreezeCounts freeze_counts;
+  MaterialCounts material_counts;
 
   // The list has all cells of matter, and some that have lost theirs. The others are empty or inert.
   std::vector<Int> list;
@@ -85,6 +87,7 @@ struct State {
   // The border is inert (section 1): blocked, never air.
   bool blocked(Int x, Int y, Int z) const { return !inside(x, y, z) || blocked(index(x, y, z)); }
   bool air(Int x, Int y, Int z) const { return !blocked(x, y, z) && cells[index(x, y, z)].liquid == 0; }
+  const Material& material(const Cell& cell) const { return parameters.materials[cell.material]; }
   bool is_set(Int i) const { return set_in[i] == step; }
   // Under the paper law sides date from before melt (section 8): a side that melted in this very step still
   // counts, and one that froze in it does not yet.
