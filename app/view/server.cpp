@@ -108,7 +108,7 @@ class Server::Net {
 
     // Only the newest frame waits. All else is sent in order, as long as the page reads at all.
     void offer(const MessagePtr& message) {
-      if (message->binary) {
+      if (message->kind == Message::Kind::frame) {
         dropped += frame != nullptr;
         frame = message;
       } else if (texts.size() < kMostWaiting) {
@@ -245,7 +245,7 @@ class Server::Net {
         co_await page->news.async_wait(net::redirect_error(net::use_awaitable, error));
         continue;
       }
-      page->stream.binary(message->binary);
+      page->stream.binary(message->kind != Message::Kind::text);
       co_await page->stream.async_write(net::buffer(message->bytes),
                                         net::redirect_error(net::use_awaitable, error));
       if (error) co_return;

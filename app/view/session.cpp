@@ -1,11 +1,18 @@
 #include "app/view/session.h"
 
+#include <stdlib.h>  // mkdtemp
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <ios>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "app/view/encode.h"
@@ -58,6 +65,41 @@ const char* name_of(Shown shown) {
   constexpr const char* kNames[] = {"solid", "liquid", "obstacle", "ground"};
   return kNames[static_cast<std::size_t>(shown)];
 }
+
+MessagePtr binary(Message::Kind kind, const std::string& head, const std::string& body) {
+  Message message{{}, kind};
+  const auto length = static_cast<std::uint32_t>(head.size());
+  for (int i = 0; i < 4; ++i) message.bytes += static_cast<char>(length >> (8 * i) & 0xFF);
+  message.bytes += head + body;
+  return std::make_shared<const Message>(std::move(message));
+}
+
+// Is a file that only this program sees, and that goes with it.
+class Scratch {
+ public:
+  Scratch() {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    std::string name = (folder / "voxmelt-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw OutputError(fmt::format("error: cannot write into {}", folder.string()));
+    folder_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::filesystem::path file() const { return folder_ / "file"; }
+  std::string bytes() const {
+    std::ifstream stream(file(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
 
 }  // namespace
 
@@ -156,6 +198,8 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
     best_ = true;
   } else if (word == "change") {
     change(rest);
+  } else if (word == "save") {
+    save(client, rest);
   } else if (word == "pick") {
     const std::vector<double> n = numbers(rest, 2);
     pick(client, whole(n[0], 0, width_ - 1), whole(n[1], 0, height_ - 1));
@@ -173,13 +217,35 @@ void Session::change(std::string_view text) {
 }
 
 void Session::write_down(const Change& change) {
+  changes_ += fmt::format("{} {}\n", simulation_.steps_done(), text_of(change));
   if (record_) record_->write(simulation_.steps_done(), change);
+}
+
+void Session::save(Client client, std::string_view what) {
+  std::string bytes;
+  if (what == "journal") {
+    bytes = fmt::format("# voxmelt journal of {}\n{}", scene_, changes_);
+  } else if (what == "checkpoint") {
+    const Scratch scratch;
+    simulation_.save(scratch.file());
+    bytes = scratch.bytes();
+  } else {
+    throw InputError("error: wants `checkpoint` or `journal`");
+  }
+  const std::string stem = std::filesystem::path(scene_).stem().string();
+  const std::string name = what == "journal"
+                               ? fmt::format("{}.journal.txt", stem)
+                               : fmt::format("{}-{:06d}.checkpoint", stem, simulation_.steps_done());
+  const json head{{"type", "file"}, {"name", name}, {"step", simulation_.steps_done()}};
+  const std::string text = head.dump(-1, ' ', true, json::error_handler_t::replace);
+  send_(client, binary(Message::Kind::file, text, bytes));
 }
 
 void Session::restart() {
   simulation_ = open_();
   if (journal_) journal_->rewind();
   if (record_) record_->restart();
+  changes_.clear();
   playing_ = false;
   single_ = 0;
   stale_ = true;
@@ -224,12 +290,7 @@ void Session::draw() {
   const std::string image = moving ? jpeg_of(frame) : png_of(frame);
   last_.encode = since(drawn);
   const std::string head = header(frame, quality, !moving);
-  auto message = std::make_shared<Message>();
-  message->binary = true;
-  const auto length = static_cast<std::uint32_t>(head.size());
-  for (int i = 0; i < 4; ++i) message->bytes += static_cast<char>(length >> (8 * i) & 0xFF);
-  message->bytes += head + image;
-  send_({}, std::move(message));
+  send_({}, binary(Message::Kind::frame, head, image));
   if (quality == Quality::best || moving) best_ = false;
   drawn_ = quality;
   stale_ = false;
@@ -285,7 +346,7 @@ void Session::tell_world(std::optional<Client> client) {
 }
 
 void Session::tell(std::optional<Client> client, std::string text) {
-  send_(client, std::make_shared<const Message>(Message{std::move(text), false}));
+  send_(client, std::make_shared<const Message>(Message{std::move(text), Message::Kind::text}));
 }
 
 void Session::pick(Client client, int x, int y) {

@@ -6,9 +6,10 @@
 //   play 0|1            step N               speed N (steps a frame, 1..1000)      restart
 //   camera AZIMUTH ELEVATION DISTANCE X Y Z  home                  size WIDTH HEIGHT
 //   best                                     change KEY NUMBER ... (see change.h)  pick X Y
+//   save checkpoint|journal
 //
-// It gets frames, and answers of one line of JSON with a "type". A line that is wrong gets a "refused", and
-// changes nothing.
+// It gets frames, files, and answers of one line of JSON with a "type". A line that is wrong gets a
+// "refused", and changes nothing.
 #pragma once
 
 #include <condition_variable>
@@ -29,11 +30,12 @@ namespace voxmelt::view {
 
 using Client = std::uint64_t;
 
-// Holds what a page gets. A frame is binary: the length of a header in four bytes, little-endian, the header
-// in JSON, and a picture, PNG or JPEG.
+// Holds what a page gets. Frames and files are binary: the length of a header in four bytes, little-endian,
+// the header in JSON, and the picture, PNG or JPEG, or what the file holds.
 struct Message {
+  enum class Kind { text, frame, file };
   std::string bytes;
-  bool binary = false;
+  Kind kind = Kind::text;
 };
 using MessagePtr = std::shared_ptr<const Message>;
 
@@ -77,6 +79,7 @@ class Session {
   void tell_world(std::optional<Client> client);
   void tell(std::optional<Client> client, std::string text);
   void pick(Client client, int x, int y);
+  void save(Client client, std::string_view what);
   Picture picture(Quality quality) const;
 
   const std::function<Simulation()> open_;
@@ -85,6 +88,7 @@ class Session {
   const Send send_;
   std::optional<JournalReader> journal_;
   std::optional<JournalWriter> record_;
+  std::string changes_;  // all lines of the journal since the beginning
 
   bool playing_ = false;
   std::uint32_t speed_ = 3, single_ = 0;  // steps a frame; steps that are still asked for

@@ -123,7 +123,8 @@ class Page:
         if code == 1:
             return "text", json.loads(payload)
         length = struct.unpack("<I", payload[:4])[0]
-        return "frame", json.loads(payload[4:4 + length]), payload[4 + length:]
+        head = json.loads(payload[4:4 + length])
+        return head["type"], head, payload[4 + length:]
 
     def text(self, kind):
         """The next text of a type."""
@@ -131,6 +132,12 @@ class Page:
             heard = self.hear()
             if heard[0] == "text" and heard[1]["type"] == kind:
                 return heard[1]
+
+    def file(self):
+        """The next file: its name and what it holds."""
+        while (heard := self.hear())[0] != "file":
+            pass
+        return heard[1]["name"], heard[2]
 
     def rest(self, step=None):
         """The next frame of a state at rest: its header and the bytes of the picture."""

@@ -160,6 +160,25 @@ class ViewTest(unittest.TestCase):
             late = [line for line in first.splitlines() if line.split()[0] == str(step)]
             self.assertEqual(second.splitlines(), first.splitlines()[:len(first.splitlines()) - len(late)])
 
+    def test_what_is_saved_goes_on(self):
+        with self.serve() as server, Page(server) as page:
+            page.rest(0)
+            page.send("change heat_source.0.power 55.5")
+            page.send("step 12")
+            page.rest(12)
+            page.send("save checkpoint")
+            name, state = page.file()
+            self.assertEqual(name, "scene-000012.checkpoint")
+            (self.path / name).write_bytes(state)
+            page.send("save journal")
+            name, journal = page.file()
+            self.assertEqual(name, "scene.journal.txt")
+            self.assertEqual(journal.decode(), f"# voxmelt journal of {self.scene}\n0 heat_source.0.power 55.5\n")
+            page.send("step 20")
+            digest = page.rest(32)[0]["digest"]
+        after = voxmelt("digest", "scene-000012.checkpoint", "--steps", 32, cwd=self.path)
+        self.assertIn(f"step 32 digest {digest}", after.stdout, after.stderr)
+
     def test_a_restart_forgets_changes(self):
         with self.serve("--record", "journal.txt") as server, Page(server) as page:
             first = page.rest(0)[0]["digest"]
@@ -183,7 +202,7 @@ class ViewTest(unittest.TestCase):
                          "change grid.size 3", "change", "change  ", "change heat.gamma 7", "change vent.add 1 2 3",
                          "step 0", "step -1", "step 1.5", "step 99999999999", "step", "speed 0", "speed 1e9", "play 2",
                          "camera 1 2 3", "camera 0 90 100 0 0 0", "camera 0 0 nan 0 0 0", "size 1 1", "size 99999 99999",
-                         "pick -1 0", "pick 99999 0", "nothing", "play 1 1", "restart now", "\x01", "step 1;step 1"):
+                         "pick -1 0", "pick 99999 0", "nothing", "save", "save /etc/passwd", "save checkpoint x", "play 1 1", "restart now", "\x01", "step 1;step 1"):
                 page.send(line)
                 refused = page.text("refused")
                 self.assertEqual(refused["line"], line)

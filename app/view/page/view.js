@@ -32,9 +32,18 @@ function hear(message) {
   }
 }
 
+function download(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 async function show(bytes) {
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+  if (head.type === "file") return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
   const type = head.exact ? "image/png" : "image/jpeg";
   const picture = await createImageBitmap(new Blob([new Uint8Array(bytes, 4 + length)], { type }));
   if (canvas.width !== picture.width || canvas.height !== picture.height)
@@ -212,6 +221,13 @@ function holdSource(event, i, shapes) {
   ring.addEventListener("pointerup", end, { once: true });
   ring.addEventListener("pointercancel", end, { once: true });
 }
+
+// --- What can be kept ---
+
+byId("save-picture").addEventListener("click", () =>
+  canvas.toBlob((blob) => download(`${state.world.scene}-${String(state.head.step).padStart(6, "0")}.png`, blob)));
+byId("save-checkpoint").addEventListener("click", () => say("save checkpoint"));
+byId("save-journal").addEventListener("click", () => say("save journal"));
 
 // --- A vent where a click says ---
 
