@@ -5,6 +5,7 @@ from foreign_keys import TINY
 
 HEAT_MOST = 65535
 MOST_GAMMA, GAMMA = 0.5236, 0.15  # of docs/scenes.md: the most, and the default
+ROUNDED = 16
 FURTHER = (1, 1, 2, 3, 15)  # beside that of `material`
 
 
@@ -15,7 +16,8 @@ def one(maker, number, coldest):
     wanted = maker.wanted.split(".")[-1] if maker.wanted.startswith("materials.") else ""
     if wanted == "melting_point":
         row["capacity"] = 1 if maker.end == 1 else row.get("capacity", 1)
-    capacity = min(row.get("capacity", 1), 1 / max(coldest, 1 / 16))
+    # Numbers that are rounded may need some more units of heat.
+    capacity = min(row.get("capacity", 1), max(1, (1 - ROUNDED / HEAT_MOST) / max(coldest, TINY)))
     if row.get("capacity", 1) > capacity:
         row["capacity"] = capacity
     if wanted == "latent_heat" and maker.end == 1:
