@@ -36,7 +36,8 @@ def run(program, scene, *, view="", size="128x128", setting="normal", frames=1, 
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.json"
         command = [program, "verify", scene, "--picture", "--from", str(SCENES[scene]), "--size", size,
-                   "--setting", setting, "--frames", str(frames), "--report", str(report)]
+                   "--setting", setting, "--frames", str(frames), "--report", str(report),
+                   "--set", "pieces.fall=false"]  # as docs/hardware/ray-caster.md has it
         if view:
             command += ["--view", view]
         if not compare:

@@ -66,7 +66,8 @@ std::vector<std::string> Subject::sets(const Setting& setting) const {
                                 fmt::format("heat.gamma={:.9f}", gamma_at(setting, n.gamma)),
                                 fmt::format("heat.neighbours={}", setting.neighbours),
                                 fmt::format("heat.visibility_every={}", setting.interval),
-                                fmt::format("heat.rays_per_face={}", setting.rays)};
+                                fmt::format("heat.rays_per_face={}", setting.rays),
+                                "pieces.fall=false"};
   const auto set = [&](std::initializer_list<std::string> more) { sets.insert(sets.end(), more); };
   if (floor) set({fmt::format("inert.0.thickness={}", kFloorOfGrid)});
   if (name == "cello")

@@ -36,7 +36,8 @@ struct Subject {
   // Returns overrides of keys, as of --set. Per step and cell, conduction goes with dt / dx^2, exchange with
   // dt / dx, a vent's rate with dt, and kappa with dt dx. The power of a source goes with dt / dx^3 if its
   // distance is in cells. The parts that fall and spread in a step go with a step's length while it is below
-  // 1. In a longer one they stay: a cell cannot give more than it has.
+  // 1. In a longer one they stay: a cell cannot give more than it has. Pieces
+  // hang, since they fall a cell in a step, however long a cell and a step are.
   std::vector<std::string> sets(const Setting& setting) const;
   // Tells if `heat.gamma` stays within its range, which ends a long step.
   bool allows(const Setting& setting) const;

@@ -124,6 +124,18 @@ class Vcd:
         return [values for when, values in self.at if values[self.clock] == 1]
 
 
+def parts_for(fault):
+    """What a machine must have for this fault to strike: pieces that fall, a code, or tiles."""
+    keys = []
+    if fault.startswith(("fall-", "feed-falls-")):
+        keys = ["pieces.fall=true"]
+    if fault.startswith("code-"):
+        keys = ["hw.coded=1"]
+    if fault.startswith("tile-"):
+        keys = ["hw.lanes=1", "hw.cascade=1", "hw.tile=16"]
+    return [word for key in keys for word in ("--set", key)]
+
+
 class Outputs(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -422,8 +434,8 @@ law = "paper"
     def check_small(self, scene, fault):
         """None where the fault strikes nowhere; else how large the scene is and how long it took."""
         begin = time.monotonic()
-        result = voxmelt("verify", scene, "--steps", 8, "--hw", "stalls", "--plant", fault, "--shrink", "small.toml",
-                         "--report", "r.json", cwd=self.folder, timeout=600)
+        result = voxmelt("verify", scene, "--steps", 8, "--hw", "stalls", "--plant", fault, *parts_for(fault), "--shrink",
+                         "small.toml", "--report", "r.json", cwd=self.folder, timeout=600)
         seconds = time.monotonic() - begin
         if result.returncode == 2 and "nothing that this fault could change" in result.stderr:
             return None

@@ -263,42 +263,56 @@ def output(*command):
     return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
+def told_by(voxmelt, name, scene, steps, folder):
+    """The lines of all steps with their digests, and the terms of the ledgers, by this implementation."""
+    file = folder / f"{name}.json"
+    lines = output(voxmelt, "digest", scene, "--steps", steps, "--every", 1, "--quiet", "--implementation", name, "--report", file)
+    report = json.loads(file.read_text())
+    return lines, {term: int(report[of][term]) for term, (of, _) in TERMS.items()}
+
+
 def cells_by(voxmelt, name, scene, steps, count, folder):
     """The cells after these steps, by this implementation."""
     output(voxmelt, "export", scene, "--steps", steps, "--quiet", "--implementation", name, "--out", folder / f"{name} {steps}")
     return read_cells(folder / f"{name} {steps}", count)
 
 
-def terms_by(voxmelt, name, scene, steps, folder):
-    """The terms of the ledgers after these steps, by this implementation."""
-    file = folder / f"{name}.json"
-    output(voxmelt, "digest", scene, "--steps", steps, "--quiet", "--implementation", name, "--report", file)
-    report = json.loads(file.read_text())
-    return {term: int(report[of][term]) for term, (of, _) in TERMS.items()}
-
-
 def by_oracle(oracle, start, steps, count, folder):
-    """The cells and the terms after these steps."""
-    lines = output(oracle, start, "--steps", steps, "--ledger", "--fields", folder / "judged")
+    """The cells after these steps, the lines of all of them, and the terms of the ledgers."""
+    lines = output(oracle, start, "--steps", steps, "--every", 1, "--ledger", "--fields", folder / "judged")
     ledgers = {line.split()[1]: line.split()[2:] for line in lines if line.startswith("ledger")}
-    return read_cells(folder / "judged", count), {term: int(ledgers[of][n]) for term, (of, n) in TERMS.items()}
+    terms = {term: int(ledgers[of][n]) for term, (of, n) in TERMS.items()}
+    return read_cells(folder / "judged", count), [line for line in lines if line.startswith("step")], terms
+
+
+def differences(what, program, cells, wanted):
+    for i, (one, other) in enumerate(zip(cells, wanted)):
+        if one != other:
+            yield f"{what}, cell {i}:\n  {program}: {one}\n  by hand: {other}"
 
 
 def offences_of(voxmelt, oracle, names, law, case, folder):
+    """The oracle's cells are compared with those by hand. All others need only have the oracle's digests: their cells are
+    looked at where they have not."""
     name, drawings, letters, terms = case[0], case[6], {**CELLS, **case[7]}, case[8]
     size, cells = cells_of(drawings[0], letters, law)
+    count = len(cells)
     scene = write_scene(folder, size, cells, law, case)
     output(voxmelt, "export", scene, "--quiet", "--steps", 0, "--out", folder / "start")
-    for steps, drawing in enumerate(drawings[1:], 1):
-        wanted = cells_of(drawing, letters, law)[1]
-        found = {program: cells_by(voxmelt, program, scene, steps, len(cells), folder) for program in names}
-        found["oracle"], judged = by_oracle(oracle, folder / "start", steps, len(cells), folder)
-        for program, mine in found.items():
-            for i, (one, other) in enumerate(zip(mine, wanted)):
-                if one != other:
-                    yield f"{name}, {law}, {steps} steps, cell {i}:\n  {program}: {one}\n  by hand: {other}"
-    ledgers_of = {program: terms_by(voxmelt, program, scene, steps, folder) for program in names if terms}
-    for program, ledgers in {**ledgers_of, "oracle": judged}.items():
+    wanted = [cells_of(drawing, letters, law)[1] for drawing in drawings]
+    for steps in range(1, len(drawings)):
+        found, judged, judged_terms = by_oracle(oracle, folder / "start", steps, count, folder)
+        yield from differences(f"{name}, {law}, {steps} steps", "oracle", found, wanted[steps])
+    ledgers_of = {"oracle": judged_terms}
+    for program in names:
+        lines, ledgers_of[program] = told_by(voxmelt, program, scene, steps, folder)
+        if lines == judged:
+            continue
+        yield f"{name}, {law}:\n  {program}: {lines}\n  oracle: {judged}"
+        for n in range(1, len(drawings)):
+            found = cells_by(voxmelt, program, scene, n, count, folder)
+            yield from differences(f"{name}, {law}, {n} steps", program, found, wanted[n])
+    for program, ledgers in ledgers_of.items():
         for term, value in terms.items():
             value = 0 if law == "viscous" and TERMS[term][0] == "energy" else value
             if ledgers[term] != value:
@@ -306,7 +320,9 @@ def offences_of(voxmelt, oracle, names, law, case, folder):
 
 
 def implementations(voxmelt):
-    return [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
+    """All but auto, which is one of them."""
+    names = [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
+    return [name for name in names if name != "auto"]
 
 
 def main():

@@ -1,5 +1,6 @@
 #include "kernel/automaton/state/connectivity.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,10 @@ namespace voxmelt::state {
 namespace {
 
 using Row = std::span<const std::uint64_t>;
+
+bool is_clear(Row row) {
+  return std::ranges::all_of(row, [](std::uint64_t word) { return word == 0; });
+}
 
 // Floods a row of solids from the bits of `reached` on, both ways.
 void flood(Row solid, std::span<std::uint64_t> reached) {
@@ -54,41 +59,50 @@ void seed(const Volume& volume, int y, int z, std::span<std::uint64_t> reached) 
 BitPlane loose_solids(const Volume& volume) {
   const Grid g = volume.grid;
   BitPlane attached(g);
-  std::vector<std::pair<int, int>> news;  // rows that have reached more than their neighbours know
+  std::vector<std::uint8_t> news(static_cast<std::size_t>(g.y) * g.z);  // rows whose neighbours know less
+  std::vector<std::size_t> later;  // those of them that the sweep has passed
+  bool sweeping = true;
   const auto spread = [&](int y, int z) {
+    flood(volume.solid.row(y, z), attached.row(y, z));
+    const std::size_t row = static_cast<std::size_t>(z) * g.y + y;
+    news[row] = 1;
+    if (!sweeping) later.push_back(row);
+  };
+  const auto tell = [&](Row from, int y, int z) {
+    const Row solid = volume.solid.row(y, z);
     const std::span<std::uint64_t> reached = attached.row(y, z);
-    flood(volume.solid.row(y, z), reached);
-    news.emplace_back(y, z);
+    std::uint64_t fresh = 0;
+    for (std::size_t w = 0; w < from.size(); ++w) {
+      const std::uint64_t more = from[w] & solid[w] & ~reached[w];
+      reached[w] |= more;
+      fresh |= more;
+    }
+    if (fresh != 0) spread(y, z);
+  };
+  const auto tell_all = [&](std::size_t row) {
+    if (std::exchange(news[row], 0) == 0) return;
+    const int y = static_cast<int>(row % g.y), z = static_cast<int>(row / g.y);
+    const Row from = attached.row(y, z);
+    if (y > 0) tell(from, y - 1, z);
+    if (y + 1 < g.y) tell(from, y + 1, z);
+    if (z > 0) tell(from, y, z - 1);
+    if (z + 1 < g.z) tell(from, y, z + 1);
   };
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y) {
       const std::span<std::uint64_t> reached = attached.row(y, z);
+      if (is_clear(volume.solid.row(y, z))) continue;
       seed(volume, y, z, reached);
-      for (const std::uint64_t word : reached)
-        if (word != 0) {
-          spread(y, z);
-          break;
-        }
+      if (!is_clear(reached)) spread(y, z);
     }
-  while (!news.empty()) {
-    const auto [y, z] = news.back();
-    news.pop_back();
-    const Row from = attached.row(y, z);
-    const auto tell = [&](int beside_y, int beside_z) {
-      const Row solid = volume.solid.row(beside_y, beside_z);
-      const std::span<std::uint64_t> reached = attached.row(beside_y, beside_z);
-      std::uint64_t fresh = 0;
-      for (std::size_t w = 0; w < from.size(); ++w) {
-        const std::uint64_t more = from[w] & solid[w] & ~reached[w];
-        reached[w] |= more;
-        fresh |= more;
-      }
-      if (fresh != 0) spread(beside_y, beside_z);
-    };
-    if (y > 0) tell(y - 1, z);
-    if (y + 1 < g.y) tell(y + 1, z);
-    if (z > 0) tell(y, z - 1);
-    if (z + 1 < g.z) tell(y, z + 1);
+  // Most bodies stand on the ground, so that a sweep reaches nearly all of them.
+  for (std::size_t row = 0; row < news.size(); ++row) tell_all(row);
+  sweeping = false;
+  for (std::size_t row = news.size(); row-- > 0;) tell_all(row);
+  while (!later.empty()) {
+    const std::size_t row = later.back();
+    later.pop_back();
+    tell_all(row);
   }
   for (int z = 0; z < g.z; ++z)
     for (int y = 0; y < g.y; ++y) {

@@ -15,6 +15,15 @@ namespace {
 
 using Words = std::span<const std::uint64_t>;
 
+// All rows of a slice, one after another.
+Words slice_of(const state::BitPlane& plane, state::Grid grid, int z) {
+  return {plane.row(0, z).data(), grid.y * plane.row_words()};
+}
+
+bool is_clear(Words words) {
+  return std::ranges::all_of(words, [](std::uint64_t word) { return word == 0; });
+}
+
 // Is a set of cells of a row, x0 <= x < x1, that are all loose.
 struct Run {
   int x0, x1, y, z;
@@ -61,6 +70,10 @@ std::vector<Run> runs_of(const state::BitPlane& loose, state::Grid grid) {
   std::vector<Run> runs;
   std::vector<std::size_t> below(static_cast<std::size_t>(grid.y) + 1), here(below.size());  // of a slice
   for (int z = 0; z < grid.z; ++z) {
+    if (is_clear(slice_of(loose, grid, z))) {
+      std::ranges::fill(below, runs.size());
+      continue;
+    }
     for (int y = 0; y < grid.y; ++y) {
       const auto at = static_cast<std::size_t>(y);
       here[at] = runs.size();
@@ -133,20 +146,21 @@ void put(Value& to, Value value) {  // writes memory only if something changes
 // Compares the solids with those known to be held. It tells if the change may have parted a piece.
 bool LoosePieces::may_part(const state::Volume& volume) {
   const state::Grid grid = volume.grid;
-  for (int z = 0; z < grid.z; ++z)
-    for (int y = 0; y < grid.y; ++y) {
-      const Words now = volume.solid.row(y, z);
-      const std::span<std::uint64_t> known = known_.row(y, z);
-      for (std::size_t w = 0; w < known.size(); ++w) {
-        if (now[w] == known[w]) continue;
-        if ((now[w] & ~known[w]) != 0) return true;  // a solid is new
-        for (std::uint64_t gone = known[w] & ~now[w]; gone != 0; gone &= gone - 1) {
-          known[w] &= ~(gone & -gone);
-          const int x = static_cast<int>(64 * w) + std::countr_zero(gone);
-          if (!is_locally_one(known_, volume.inert, grid, x, y, z)) return true;
-        }
+  const std::size_t row_words = known_.row_words();
+  for (int z = 0; z < grid.z; ++z) {
+    const Words now = slice_of(volume.solid, grid, z), before = slice_of(known_, grid, z);
+    if (std::ranges::equal(now, before)) continue;  // fast, and true of most slices in each step
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i] == before[i]) continue;
+      if ((now[i] & ~before[i]) != 0) return true;  // a solid is new
+      const int y = static_cast<int>(i / row_words), word = static_cast<int>(i % row_words);
+      for (std::uint64_t gone = before[i] & ~now[i]; gone != 0; gone &= gone - 1) {
+        const int x = 64 * word + std::countr_zero(gone);
+        known_.set(x, y, z, false);
+        if (!is_locally_one(known_, volume.inert, grid, x, y, z)) return true;
       }
     }
+  }
   return false;
 }
 
@@ -156,7 +170,7 @@ const state::ChangedRows& LoosePieces::fall(const FallOfPieces& how, std::uint32
   if (!known_.empty() && volume.inert == inert_ && !may_part(volume)) return changed_;
   ++searches_;
   loose_ = state::loose_solids(volume);
-  if (loose_.count() == 0) {
+  if (is_clear(loose_.words())) {
     known_ = volume.solid;
     inert_ = volume.inert;
     return changed_;
@@ -199,7 +213,8 @@ void LoosePieces::turn_columns(state::Volume& volume) {
     if (!volume.material.empty()) std::swap(volume.material[at], volume.material[below]);
   };
   // From below on, each row changes places with what has come up to it.
-  for (int z = 0; z < grid.z; ++z)
+  for (int z = 0; z < grid.z; ++z) {
+    if (is_clear(slice_of(moving_, grid, z))) continue;
     for (int y = 1; y < grid.y; ++y) {
       const Words moving = moving_.row(y, z);
       std::uint64_t words = 0;
@@ -219,6 +234,7 @@ void LoosePieces::turn_columns(state::Volume& volume) {
       changed_.push_back({y, z, words});
       changed_.push_back({y - 1, z, words});
     }
+  }
 }
 
 }  // namespace voxmelt::parallel

@@ -88,8 +88,7 @@ void KeptRays::move_sources(const rule::Heat& heat, std::uint32_t step) {
     const rule::SourceKey now = rule::source_at(heat.sources[s], step);
     Source& source = sources_[s];
     const std::uint64_t power = source.now.power;
-    source.still =
-        !news_.appeared && power > 0 && source.kind == heat.sources[s].kind && same_ends(source.now, now);
+    source.still = power > 0 && source.kind == heat.sources[s].kind && same_ends(source.now, now);
     source.steady = (source.still || now.power == 0) && power == now.power;
     source.kind = heat.sources[s].kind;
     source.now = now;
@@ -188,6 +187,7 @@ void KeptRays::renew(Band& band, std::size_t s, const Surface& surface, Renewal&
     own = {};
   }
   if (dark) return;
+  if (news_.appeared) std::ranges::replace(own.fates, kSees, kDark);  // what saw may have something before it
   find(band, surface, source.still && band.kept, own, found);
   if (!source.steady)
     for (Lit& lit : own.cells) lit.value = kStale;

@@ -1,7 +1,6 @@
 // This provider casts only rays that may have changed. While a source stands still, a ray that saw it sees
-// it, because opaque cells only vanish. A dark ray stays dark while the cell that it met is opaque. If an
-// opaque cell appears (a volume edited by hand), or a source moves, every ray is cast anew. A sky always
-// stands still. So the irradiance is the same as if all rays were cast each time, and depends on no memory.
+// it, unless an opaque cell has appeared: then each such ray is cast anew. A dark ray stays dark while the
+// cell that it met is opaque. If a source moves, every ray is cast anew. A sky always stands still. So the irradiance is the same as if all rays were cast each time, and depends on no memory.
 //
 // While all sources are steady, only cells about a change of the masks are looked at, and only cells with a
 // new fate or face are written. The fates alone are gone through in every call that finds news.
@@ -56,7 +55,7 @@ class KeptRays final : public Provider {
   struct Source {
     rule::SourceKind kind = rule::SourceKind::point;
     rule::SourceKey now;
-    bool still = false;   // its rays end at the same places as before, and no opaque cell has appeared
+    bool still = false;   // its rays end at the same places as before
     bool steady = false;  // moreover, its power is the same as before
   };
 

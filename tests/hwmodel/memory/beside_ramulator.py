@@ -39,7 +39,7 @@ def made(rng):
 def picture(build, folder):
     trace = folder / "picture.trace"
     subprocess.run([build / "app/voxmelt", "verify", "cello", "--picture", "--from", "200", "--size", "128x128", "--no-compare", "--quiet",
-                    "--set", "hw.memory=ddr4-2400", "--set", f"hw.memory_trace={trace}"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+                    "--set", "pieces.fall=false", "--set", "hw.memory=ddr4-2400", "--set", f"hw.memory_trace={trace}"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     return [(int(address, 16), kind) for address, kind in map(str.split, trace.read_text().splitlines())]
 
 

@@ -78,7 +78,7 @@ TEST(Lockstep, TeachingScenes) {
     const std::string name = entry.path().stem().string();
     if (!name.starts_with("lesson_") && !name.starts_with("paper_")) continue;
     const Configuration c{scenes % 2 == 0 ? 16 : 4, 1 + scenes % 4, 2, 0};
-    ASSERT_TRUE(agrees(start_of(name, 60), c, 4)) << name;
+    ASSERT_TRUE(agrees(start_of(name, 60, {}), c, 4)) << name;
     ++scenes;
   }
   EXPECT_GE(scenes, 11);

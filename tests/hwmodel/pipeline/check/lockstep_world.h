@@ -24,8 +24,11 @@ struct Start {
   std::uint32_t step = 0;
 };
 
-inline Start start_of(const std::string& scene_name, std::uint32_t ahead) {
-  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), {});
+// Where pieces may fall a pass has one step, and most of a cascade would never work.
+inline Start start_of(const std::string& scene_name, std::uint32_t ahead,
+                      const std::vector<std::string>& overrides = {"pieces.fall=false"}) {
+  scene::Scene scene =
+      scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (scene_name + ".toml"), overrides);
   run::Simulation simulation(scene.parameters, std::move(scene.initial), run::implementations().widest());
   ahead -= scene.parameters.heat.visibility_age(ahead);
   while (simulation.steps_done() < ahead) simulation.step();

@@ -108,7 +108,7 @@ TEST(Pieces, HostileWorldsInTilesAndOnADram) {
 
 // Runs on until something falls, for some 20 steps at most.
 Start when_something_falls(const std::string& scene, std::uint32_t from) {
-  Start start = start_of(scene, from);
+  Start start = start_of(scene, from, {});
   run::Simulation simulation(start.parameters, start.volume, run::implementations().widest());
   simulation.begin_at(start.step);
   const auto falls = [&] {
