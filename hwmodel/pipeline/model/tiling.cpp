@@ -51,7 +51,6 @@ bool host_sees_each_step(const rule::Parameters& parameters) {
 }
 
 std::string unmodelled_rule(const rule::Parameters& parameters) {
-  if (!parameters.materials.empty()) return "materials: the pipeline has solids of one material only";
   if (parameters.flow.law == rule::Law::paper || !parameters.flow.viscous.relaxes()) return {};
   return "flow.viscous.stages_max above 1: the pipeline has no stage that relaxes heads";
 }
