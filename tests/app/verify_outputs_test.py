@@ -16,6 +16,7 @@ from pathlib import Path
 
 from program import SMALL, voxmelt, write
 
+MUTANTS = Path(__file__).resolve().parents[1] / "hwmodel/mutants/scenes"
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?")
 
 
@@ -431,11 +432,11 @@ law = "paper"
             self.assertEqual(result.returncode, 2, wrong)
             self.assertIn(why, result.stderr, wrong)
 
-    def check_small(self, scene, fault):
+    def check_small(self, scene, fault, *options):
         """None where the fault strikes nowhere; else how large the scene is and how long it took."""
         begin = time.monotonic()
-        result = voxmelt("verify", scene, "--steps", 8, "--hw", "stalls", "--plant", fault, *parts_for(fault), "--shrink",
-                         "small.toml", "--report", "r.json", cwd=self.folder, timeout=600)
+        result = voxmelt("verify", scene, "--steps", 8, "--hw", "stalls", *options, "--plant", fault, *parts_for(fault),
+                         "--shrink", "small.toml", "--report", "r.json", cwd=self.folder, timeout=600)
         seconds = time.monotonic() - begin
         if result.returncode == 2 and "nothing that this fault could change" in result.stderr:
             return None
@@ -505,14 +506,16 @@ law = "paper"
 class EveryFault(Outputs):
     def test_every_fault_is_made_small(self):
         listed = voxmelt("list", "faults").stdout.split("\n\n")[0]
-        for fault in [line.split()[0] for line in listed.splitlines()]:
-            found = 0
-            for scene in ("proving_ground", "proving_ground_viscous"):
-                small = self.check_small(scene, fault)
+        for line in listed.splitlines():
+            fault, found = line.split()[0], 0
+            ground = str(MUTANTS / "materials{}.toml") if "several materials" in line else "proving_ground{}"
+            pieces = ["--set", "pieces.fall=true"] if "pieces that fall" in line else []
+            for scene in (ground.format(""), ground.format("_viscous")):
+                small = self.check_small(scene, fault, *pieces)
                 if small is None:
                     continue
                 size, steps, seconds = small
-                print(f"{fault:24}{scene:24}{'x'.join(map(str, size)):>8}{steps:3} steps{seconds:7.1f} s", flush=True)
+                print(f"{fault:24}{Path(scene).stem:24}{'x'.join(map(str, size)):>8}{steps:3} steps{seconds:7.1f} s", flush=True)
                 with self.subTest(fault=fault, scene=scene):
                     self.assertLessEqual(max(size), 8)
                     self.assertLessEqual(steps, 2)

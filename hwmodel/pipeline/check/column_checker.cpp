@@ -86,7 +86,7 @@ void ColumnChecker::column_written(const Place& last, const std::uint64_t* slot)
       const Cell wanted = wanted_at(place.x + lane, place.y, place.z);
       bits.go_to(design.shape.grid.y + (stored * lanes + lane) * design.cell_bits());
       for (const CellWire& row : kCellWires)
-        if (is_in_memory(row, design.paper(), design.hot()) &&
+        if (is_in_memory(row, design.kept()) &&
             differs(place, lane, row.label, coded(row, wanted, design.keeps_set()), bits.take(row.bits)))
           return;
     }

@@ -56,7 +56,8 @@ class ConductionFaults : public Planted {
   }
   bool any_armed(const Stage& pass) const {
     return armed(pass, Fault::conduction_sign) || armed(pass, Fault::conduction_dither) ||
-           armed(pass, Fault::conduction_stale_row) ||
+           armed(pass, Fault::conduction_stale_row) || armed(pass, Fault::conduction_first) ||
+           armed(pass, Fault::conduction_mean) ||
            (pass.kind() != StageKind::conduction && armed(pass, Fault::distant_wrong_axis));
   }
 
@@ -141,6 +142,12 @@ class ConductionFaults : public Planted {
     const auto& dither = pass.dither_;
     if (armed(pass, Fault::conduction_sign)) return -pass.flux(p, q, dither[part]);
     if (armed(pass, Fault::conduction_dither)) return pass.flux(p, q, dither[(part + 1) % kPairs.size()]);
+    if (armed(pass, Fault::conduction_first) || armed(pass, Fault::conduction_mean)) {
+      const std::int64_t weight = armed(pass, Fault::conduction_first)
+                                      ? pass.weights_.of(0, 0)
+                                      : (pass.weight(p, p) + pass.weight(q, q)) / 2;
+      return scale(std::int64_t{q.temperature} - p.temperature, weight, dither[part]);
+    }
     if (armed(pass, Fault::conduction_stale_row)) {
       const bool same_token = lane > 0 && (corner & kWest) != 0;
       const std::int64_t delay = corner_delay(pass.shape(), same_token ? corner & ~kWest : corner);

@@ -36,6 +36,10 @@ class FallFaults : public Planted {
       leaves.heat = stage.held_[lane].heat;
       strike_lane(stage, stage.leaving(), lane);
     }
+    if (armed(stage, Fault::fall_material_stays) && passes && leaves.material != stage.held_[lane].material) {
+      leaves.material = stage.held_[lane].material;
+      strike_lane(stage, stage.leaving(), lane);
+    }
     turning_[lane] = passes;
     last_[lane] = leaves;
   }

@@ -19,6 +19,7 @@ enum class Fault : std::uint8_t {
   fall_lane,
   fall_below_lost,
   fall_heat_stays,
+  fall_material_stays,
   // These strike the stage `source`.
   vent_rate,
   drain_energy,
@@ -26,6 +27,8 @@ enum class Fault : std::uint8_t {
   conduction_sign,
   conduction_dither,
   conduction_stale_row,
+  conduction_first,
+  conduction_mean,
   distant_wrong_axis,
   wall_drifts,
   axis_uncounted,
@@ -35,9 +38,13 @@ enum class Fault : std::uint8_t {
   irradiance_lane,
   air_axis_missed,
   glow_square,
+  air_first,
+  air_warmth,
   // These strike the phase `melt`.
   melt_stuck,
   melt_energy,
+  melt_material,
+  melt_heat,
   freeze_warm,
   freeze_film,
   set_untold,
@@ -64,6 +71,7 @@ enum class Fault : std::uint8_t {
   settle_run_untold,
   settle_head,
   settle_bed,
+  settle_bed_first,
   settle_mobility,
   settle_limit,
   settle_dead_zone,
@@ -114,8 +122,17 @@ inline bool is_of_tiles(Fault fault) {
 
 // Such a fault strikes where pieces fall.
 inline bool is_of_pieces(Fault fault) {
-  return (fault >= Fault::fall_not_passed && fault <= Fault::fall_heat_stays) ||
+  return (fault >= Fault::fall_not_passed && fault <= Fault::fall_material_stays) ||
          fault == Fault::feed_falls_stale;
+}
+
+// Such a fault strikes in scenes of several materials.
+inline bool is_of_materials(Fault fault) {
+  using enum Fault;
+  for (const Fault one : {fall_material_stays, conduction_first, conduction_mean, air_first, air_warmth,
+                          melt_material, melt_heat, settle_bed_first})
+    if (fault == one) return true;
+  return false;
 }
 
 inline bool is_of_feeds(Fault fault) {

@@ -23,7 +23,7 @@ class SettleFaults : public Planted {
   SettleFaults(FaultPlan& plan, const Design& design)
       : Planted(plan),
         column_(design.shape.lanes, design.shape.column()),
-        sinks_(static_cast<std::size_t>(design.shape.lanes)) {}
+        beds_(static_cast<std::size_t>(design.shape.lanes)) {}
 
   void summed(Faulty& stage, const Cell* in) {
     if (!armed(stage, Fault::settle_run_broken)) return;
@@ -95,7 +95,7 @@ class SettleFaults : public Planted {
 
   // Spoils what a cell of a run shows. Every change is seen behind the smaller of two limits.
   void shown(const Faulty& stage, int lane, Cell& cell) {
-    const std::int64_t sinks = note_bed(stage, lane, cell);
+    const auto [sinks, strange] = note_bed(stage, lane, cell);
     if (cell.set > 0 && armed(stage, Fault::settle_set_lost)) {
       cell.set = 0;
       return strike_lane(stage, stage.leaving(), lane);
@@ -107,6 +107,8 @@ class SettleFaults : public Planted {
       cell.head = cell.head - 1;
     else if (sinks != 0 && armed(stage, Fault::settle_bed))
       cell.head = cell.head + sinks;
+    else if (strange != 0 && armed(stage, Fault::settle_bed_first))
+      cell.head = cell.head + strange;
     else if (armed(stage, Fault::settle_mobility) && cell.mobility > 0)
       cell.mobility = cell.mobility >> 1;
     else if (armed(stage, Fault::settle_limit) && cell.limit > 1)
@@ -130,13 +132,18 @@ class SettleFaults : public Planted {
     SettleWord record;  // in the word of the uppermost cell
   };
 
-  // Returns how far below a flat bed the bed lies upon which the cell stands, if that is a solid.
-  std::int64_t note_bed(const Faulty& stage, int lane, const Cell& cell) {
-    std::int64_t& sinks = sinks_[static_cast<std::size_t>(lane)];
-    if (stage.leaving().y == 0) sinks = 0;
-    if (cell.blocked())
-      sinks = cell.state == State::solid ? kFlatRise - stage.solids_.rise(cell.amount, cell.heat) : 0;
-    return sinks;
+  // Tells how far below a flat bed the bed lies upon which a cell stands, and how far below that of the first
+  // material, if it is a solid.
+  struct Bed {
+    std::int64_t sinks = 0, strange = 0;
+  };
+  Bed note_bed(const Faulty& stage, int lane, const Cell& cell) {
+    Bed& bed = beds_[static_cast<std::size_t>(lane)];
+    if (stage.leaving().y == 0 || cell.blocked()) bed = {};
+    if (cell.state != State::solid) return bed;
+    const std::int64_t rise = stage.solids_.rise(cell.amount, cell.heat, cell.material);
+    bed = {kFlatRise - rise, stage.solids_.rise(cell.amount, cell.heat) - rise};
+    return bed;
   }
 
   // Compares what the next stage can tell apart. Mobilities are never used without a limit.
@@ -210,8 +217,8 @@ class SettleFaults : public Planted {
     strike(stage, place.x + lane, place.y + above, place.z);
   }
 
-  TapLine<Cell> column_;             // the latest tokens
-  std::vector<std::int64_t> sinks_;  // of each lane
+  TapLine<Cell> column_;   // the latest tokens
+  std::vector<Bed> beds_;  // of each lane
 };
 
 }  // namespace voxmelt::hwmodel

@@ -2,7 +2,6 @@
 // kernel/automaton/rule, their agreement would prove nothing.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <iterator>
@@ -64,12 +63,6 @@ class Reciprocal {
 // Returns the heat of a mixture, by one divider. `content` is the sum of amount x heat of its parts.
 inline UInt<16> mix(std::int64_t content, std::int64_t amount, std::int64_t dither) {
   return (content + ((amount * dither) >> 16)) / amount;
-}
-
-// Returns the temperature of heat content h. It has a plateau at the melting point while latent heat is paid.
-inline UInt<16> temperature_of(std::int64_t h, const rule::Material& material) {
-  if (h <= material.melting_point) return h;
-  return std::max<std::int64_t>(material.melting_point, h - material.latent_heat);
 }
 
 // The directions stand in the order of a pattern's bits: +x -x +z -z, then the diagonals.

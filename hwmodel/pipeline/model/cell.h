@@ -21,6 +21,7 @@ enum class State : std::uint8_t { air, liquid, solid, inert };
 struct StoredCell {
   UInt<16> amount = kFlatBed;  // inert: bed offset
   UInt<16> energy, heat;
+  UInt<4> material;  // of a solid, in scenes with several; elsewhere 0
   State state = State::inert;
 
   StoredCell& stored() { return *this; }

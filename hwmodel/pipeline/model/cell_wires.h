@@ -20,6 +20,7 @@ enum class Wire : std::uint8_t {
   amount,
   energy,
   heat,
+  material,
   exposed_axes,
   pattern,
   beside_wall,
@@ -65,8 +66,9 @@ inline constexpr std::array kCellWires{
              [](const Cell& cell) { return static_cast<std::int64_t>(cell.state); },
              [](Cell& cell, std::int64_t value) { cell.state = static_cast<State>(value); }},
     cell_wire<&Cell::amount>(Wire::amount, "amount", "amount", true),
-    cell_wire<&Cell::energy>(Wire::energy, "energy", "energy", true),  // under the paper's law
-    cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),          // in scenes with heat
+    cell_wire<&Cell::energy>(Wire::energy, "energy", "energy", true),          // under the paper's law
+    cell_wire<&Cell::heat>(Wire::heat, "heat", "heat", true),                  // in scenes with heat
+    cell_wire<&Cell::material>(Wire::material, "material", "material", true),  // where there are several
     // Each side band goes from the stage that makes it to those that read it:
     // conduction -> exchange
     cell_wire<&Cell::exposed_axes>(Wire::exposed_axes, "exposed_axes", "exposed axes", false),
@@ -113,15 +115,21 @@ class Wires {
   std::uint32_t bits_ = 0;
 };
 
+// Tells which fields a scene has, of those that not all scenes have.
+struct KeptFields {
+  bool energy, heat, material;
+};
+
 // Returns true if memory holds this field of a cell. Every channel carries it then, too.
-constexpr bool is_in_memory(const CellWire& row, bool paper, bool hot) {
-  if (row.wire == Wire::energy) return paper;
-  if (row.wire == Wire::heat) return hot;
+constexpr bool is_in_memory(const CellWire& row, const KeptFields& kept) {
+  if (row.wire == Wire::energy) return kept.energy;
+  if (row.wire == Wire::heat) return kept.heat;
+  if (row.wire == Wire::material) return kept.material;
   return row.in_memory;
 }
-constexpr int bits_in_memory(bool paper, bool hot) {
+constexpr int bits_in_memory(const KeptFields& kept) {
   int bits = 0;
-  for (const CellWire& row : kCellWires) bits += is_in_memory(row, paper, hot) ? row.bits : 0;
+  for (const CellWire& row : kCellWires) bits += is_in_memory(row, kept) ? row.bits : 0;
   return bits;
 }
 

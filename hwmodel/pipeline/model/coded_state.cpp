@@ -8,7 +8,7 @@ namespace voxmelt::hwmodel {
 namespace {
 
 void put_bits(std::uint64_t* words, std::int64_t at, int bits, std::uint64_t value) {
-  const std::uint64_t ones = (std::uint64_t{1} << bits) - 1;  // a cell has at most 50 bits
+  const std::uint64_t ones = (std::uint64_t{1} << bits) - 1;  // a cell has at most 54 bits
   const std::int64_t shift = at % 64;
   std::uint64_t* word = words + at / 64;
   word[0] = (word[0] & ~(ones << shift)) | value << shift;
@@ -60,8 +60,7 @@ CodeLayout::CodeLayout(const Design& design)
       blocks_(design.shape.grid_blocks()),
       cell_bits_(design.cell_bits()),
       columns_(std::int64_t{design.shape.grid_blocks()} * design.shape.grid.z),
-      paper_(design.paper()),
-      hot_(design.hot()),
+      kept_(design.kept()),
       keeps_set_(design.keeps_set()) {}
 
 void CodeLayout::put(const Cell& cell, std::uint64_t* slot, std::int64_t at) const {
@@ -70,7 +69,7 @@ void CodeLayout::put(const Cell& cell, std::uint64_t* slot, std::int64_t at) con
   Cell stored = cell;
   if (keeps_set_) stored.state = with_set(cell);
   for (const CellWire& row : kCellWires) {
-    if (!is_in_memory(row, paper_, hot_)) continue;
+    if (!is_in_memory(row, kept_)) continue;
     const std::uint64_t number = row.get(stored);
     value |= number << bits;
     bits += row.bits;
@@ -82,7 +81,7 @@ Cell CodeLayout::get(const std::uint64_t* slot, std::int64_t at) const {
   std::uint64_t value = get_bits(slot, at, cell_bits_);
   Cell cell;
   for (const CellWire& row : kCellWires) {
-    if (!is_in_memory(row, paper_, hot_)) continue;
+    if (!is_in_memory(row, kept_)) continue;
     row.set(cell, value & ((std::uint64_t{1} << row.bits) - 1));
     value >>= row.bits;
   }

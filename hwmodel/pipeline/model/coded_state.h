@@ -46,7 +46,8 @@ class CodeLayout {
  private:
   int lanes_, height_, blocks_, cell_bits_;
   std::int64_t columns_;
-  bool paper_, hot_, keeps_set_;
+  KeptFields kept_;
+  bool keeps_set_;
 };
 
 // The reader asks for the bits of so many columns before it needs them.

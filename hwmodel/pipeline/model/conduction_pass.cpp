@@ -38,4 +38,12 @@ std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatP
   return costs;
 }
 
+void add_material_tables(const Design& design, std::span<const HeatPair> pairs, std::int64_t words,
+                         std::vector<BufferCost>& buffers) {
+  if (!design.of_materials()) return;
+  const std::int64_t lanes = design.shape.lanes;
+  buffers.push_back({"weights of pairs", words, lanes * static_cast<std::int64_t>(pairs.size()), 16});
+  add_table(buffers, "curves", design, Curves::kBits);
+}
+
 }  // namespace voxmelt::hwmodel

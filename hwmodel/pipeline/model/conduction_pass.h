@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hwmodel/pipeline/model/heat_word.h"
+#include "hwmodel/pipeline/model/materials.h"
 
 namespace voxmelt::hwmodel {
 
@@ -46,6 +47,9 @@ inline std::int64_t corner_delay(const Shape& shape, unsigned corner) {
 std::vector<std::int64_t> tap_delays(const Shape& shape, std::span<const HeatPair> pairs);
 // Returns the memories between the taps.
 std::vector<BufferCost> heat_buffers(const Design& design, std::span<const HeatPair> pairs, int exposed_bits);
+// Adds the tables of a pass, where there are several materials. Each pair of a lane reads weights at once.
+void add_material_tables(const Design& design, std::span<const HeatPair> pairs, std::int64_t words,
+                         std::vector<BufferCost>& buffers);
 
 // Makes a number a type. It is the part of the dither that the pairs of one axis use.
 template <std::size_t kPart>
@@ -56,17 +60,18 @@ class ConductionPass : public Stage {
  public:
   static constexpr int kParts = kPairs.size();
 
-  // `weight` is the weight of this neighbour distance.
-  ConductionPass(StageKind kind, const Design& design, std::uint16_t weight, Faults faults)
+  // `weights` are those of this neighbour distance.
+  ConductionPass(StageKind kind, const Design& design, PairWeights weights, Faults faults)
       : Stage(kind, design, tap_delays(design.shape, kPairs).back()),
-        material_(design.parameters.material),
+        curves_(design.parameters),
         faults_(faults),
-        weight_(weight),
+        weights_(std::move(weights)),
         line_(lanes(), lag()) {}
 
   Wires side_bands() const override { return heated_bands(design()); }
-  std::vector<BufferCost> buffers() const override { return heat_buffers(design(), kPairs, 2); }
-  Units units() const override { return {.multipliers = kParts}; }
+  std::vector<BufferCost> buffers() const override { return buffers_of(2); }
+  // Each pair multiplies. So does the temperature of the cell that comes, where there are several materials.
+  Units units() const override { return {.multipliers = kParts + (design().of_materials() ? 1 : 0)}; }
 
  protected:
   void begin_step() override {
@@ -80,7 +85,8 @@ class ConductionPass : public Stage {
       rows_[corner] = delay <= lag() ? line_.tap(delay) : nullptr;
     }
     if (in != nullptr) {
-      for (const int lane : each_lane()) take_cell(in[lane], material_, rows_[kHere][lane]);
+      for (const int lane : each_lane())
+        take_cell(in[lane], curves_.temperature(in[lane].heat, in[lane].material), rows_[kHere][lane]);
       conduct(std::make_index_sequence<kParts>());
       watch();
       faults_.conducted(*this);
@@ -95,6 +101,11 @@ class ConductionPass : public Stage {
 
   virtual void watch() {}  // hook for what else a pass must see in the window
   virtual std::int64_t exposed_axes(const HeatWord& word) const { return word.exposed; }
+  std::vector<BufferCost> buffers_of(int exposed_bits) const {
+    std::vector<BufferCost> buffers = heat_buffers(design(), kPairs, exposed_bits);
+    add_material_tables(design(), kPairs, weights_.words(), buffers);
+    return buffers;
+  }
 
   // Calls visit(p, q) for the pairs of one axis that the arriving token completes.
   template <std::size_t kPart, class Visit>
@@ -118,7 +129,7 @@ class ConductionPass : public Stage {
     return lane == 0 ? rows_[corner][lanes() - 1] : rows_[corner & ~kWest][lane - 1];
   }
 
-  const rule::Material material_;
+  const Curves curves_;
 
  private:
   friend Faults;
@@ -126,7 +137,11 @@ class ConductionPass : public Stage {
   // Returns the flow from q to p.
   std::int64_t flux(const HeatWord& p, const HeatWord& q, std::int64_t dither) const {
     if (!p.conducts() || !q.conducts()) return 0;
-    return scale(std::int64_t{q.temperature} - p.temperature, weight_, dither);
+    return scale(std::int64_t{q.temperature} - p.temperature, weight(p, q), dither);
+  }
+  // A wall counts as being of its neighbour's material.
+  std::int64_t weight(const HeatWord& p, const HeatWord& q) const {
+    return weights_.of(p.matter() ? p.material : q.material, q.matter() ? q.material : p.material);
   }
 
   template <std::size_t... kPart>
@@ -143,7 +158,7 @@ class ConductionPass : public Stage {
   }
 
   [[no_unique_address]] Faults faults_;
-  const std::uint16_t weight_;
+  const PairWeights weights_;
   std::array<UInt<16>, kParts> dither_;
   TapLine<HeatWord> line_;
   std::array<HeatWord*, 8> rows_{};

@@ -19,12 +19,14 @@ class FaceConduction final : public ConductionPass<kFacePairs, Faults> {
 
  public:
   explicit FaceConduction(const Design& design, Faults faults = {})
-      : Pass(StageKind::conduction, design, design.parameters.heat.weight_face, faults),
+      : Pass(StageKind::conduction, design,
+             {design.parameters, design.parameters.heat.weight_face, &rule::SolidMaterial::weight_face},
+             faults),
         counts_axes_(design.parameters.heat.air),
         finds_walls_(design.walls_in_conduction()),
         finds_touched_(design.freezes()) {}
 
-  std::vector<BufferCost> buffers() const override { return heat_buffers(this->design(), kFacePairs, 3); }
+  std::vector<BufferCost> buffers() const override { return this->buffers_of(3); }
 
  private:
   void watch() override {

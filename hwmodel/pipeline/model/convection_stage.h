@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hwmodel/pipeline/model/heat_word.h"
+#include "hwmodel/pipeline/model/materials.h"
 #include "hwmodel/pipeline/model/stage.h"
 
 namespace voxmelt::hwmodel {
@@ -16,7 +17,7 @@ class Convection final : public Stage {
   explicit Convection(const Design& design, Faults faults = {})
       : Stage(StageKind::convection, design, 1),
         faults_(faults),
-        material_(design.parameters.material),
+        curves_(design.parameters),
         weight_(design.parameters.heat.convection),
         line_(lanes(), 1) {}
 
@@ -35,7 +36,8 @@ class Convection final : public Stage {
     line_.shift();
     HeatWord *above = line_.tap(0), *below = line_.tap(1);
     if (in != nullptr) {
-      for (const int lane : each_lane()) take_cell(in[lane], material_, above[lane]);
+      for (const int lane : each_lane())  // only liquid counts
+        take_cell(in[lane], curves_.temperature(in[lane].heat), above[lane]);
       if (came().y > 0)
         for (const int lane : each_lane()) rise(below[lane], above[lane]);
     }
@@ -56,7 +58,7 @@ class Convection final : public Stage {
   }
 
   [[no_unique_address]] Faults faults_;
-  const rule::Material material_;
+  const Curves curves_;
   const std::int64_t weight_;
   UInt<16> dither_;
   TapLine<HeatWord> line_;

@@ -10,16 +10,20 @@ template <class Faults>
 class EdgeConduction final : public ConductionPass<kEdgePairs, Faults> {
  public:
   explicit EdgeConduction(const Design& design, Faults faults = {})
-      : ConductionPass<kEdgePairs, Faults>(StageKind::edges, design, design.parameters.heat.weight_edge,
-                                           faults) {}
+      : ConductionPass<kEdgePairs, Faults>(
+            StageKind::edges, design,
+            {design.parameters, design.parameters.heat.weight_edge, &rule::SolidMaterial::weight_edge},
+            faults) {}
 };
 
 template <class Faults>
 class CornerConduction final : public ConductionPass<kCornerPairs, Faults> {
  public:
   explicit CornerConduction(const Design& design, Faults faults = {})
-      : ConductionPass<kCornerPairs, Faults>(StageKind::corners, design, design.parameters.heat.weight_corner,
-                                             faults) {}
+      : ConductionPass<kCornerPairs, Faults>(
+            StageKind::corners, design,
+            {design.parameters, design.parameters.heat.weight_corner, &rule::SolidMaterial::weight_corner},
+            faults) {}
 };
 
 }  // namespace voxmelt::hwmodel

@@ -20,9 +20,9 @@ struct HeatWord : StoredCell {
   bool conducts() const { return matter() || wall(); }
 };
 
-inline void take_cell(const Cell& cell, const rule::Material& material, HeatWord& word) {
+inline void take_cell(const Cell& cell, UInt<16> temperature, HeatWord& word) {
   word.stored() = cell.stored();
-  word.temperature = temperature_of(cell.heat, material);
+  word.temperature = temperature;
   word.exposed = std::int64_t{cell.exposed_axes};
   word.beside_wall = cell.beside_wall;
   word.touches = cell.touches;

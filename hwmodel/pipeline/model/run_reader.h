@@ -42,6 +42,7 @@ struct SpreadWord {
   // The following belong to a blocked cell.
   RunPace above;                     // pace of the run that begins in the next cell up
   UInt<SolidBed::kRiseBits> melted;  // rise of a solid's bed; an inert cell's follows from its amount
+  UInt<4> material;                  // of a solid, in scenes with several
 
   bool blocked() const { return ground == Ground::solid || ground == Ground::inert; }
   bool runs() const { return ground == Ground::run; }
@@ -49,19 +50,25 @@ struct SpreadWord {
   UInt<14> rise() const { return ground == Ground::solid ? UInt<14>(melted) : rise_of_inert(amount); }
 
   // Returns the bits of a word. The two kinds share them.
-  static int bits(int head_bits, bool hot, bool walls, bool freezes) {
-    const int blocked = kDoneBits + (hot ? 16 : 0) + RunPace::kBits + SolidBed::kRiseBits;
-    const int open =
-        kDoneBits + 16 + (hot ? 16 + 32 : 0) + (walls ? 1 : 0) + head_bits + 2 + (freezes ? 1 : 0);
+  static int bits(int head_bits, const Design& design) {
+    const int more = open_bits(design), heat = design.hot() ? 16 : 0;
+    const int blocked = kDoneBits + heat + RunPace::kBits + SolidBed::kRiseBits + solid_bits(design);
+    const int open = kDoneBits + 16 + heat + (design.hot() ? 32 : 0) + head_bits + 2 + more;
     return std::max(blocked, open);
   }
-  // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, wall, set.
-  static int done_bits(bool hot, bool walls, bool freezes) {
-    return kDoneBits + (hot ? 16 : 0) + (walls ? 1 : 0) + (freezes ? 1 : 0);
+  // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, and either wall
+  // and set or the material.
+  static int done_bits(const Design& design) {
+    return kDoneBits + (design.hot() ? 16 : 0) + std::max(open_bits(design), solid_bits(design));
   }
 
  private:
   static constexpr int kDoneBits = 2 + 16;
+
+  static int open_bits(const Design& design) {
+    return (design.needs_walls() ? 1 : 0) + (design.freezes() ? 1 : 0);
+  }
+  static int solid_bits(const Design& design) { return design.of_materials() ? 4 : 0; }
 };
 
 // Describes a cell in the window: its word, its place along x, and what it shows.

@@ -27,19 +27,30 @@ struct SettleWord {
   UInt<16> top;     // amount of the uppermost cell of such a run (not after the second scan)
   UInt<16> mean;    // mean heat, with thermal viscosity
 
-  UInt<1> set;  // of the place, in scenes that freeze
+  UInt<1> set;           // of the place, in scenes that freeze
+  UInt<4> material = 0;  // of a solid, in scenes with several; such a word has no record
 
   bool blocked() const { return kind == SettleKind::solid || kind == SettleKind::inert; }
   // After the second scan this tells where a record lies.
   bool lowest() const { return kind == SettleKind::first || kind == SettleKind::shut; }
 
-  // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first.
-  static int bits(const RunWidths& widths, bool hot, bool thermal, bool freezes) {
-    return kSettleKindBits + widths.sum + widths.count + (hot ? 16 + (thermal ? 16 : 0) : 0) +
-           (freezes ? 1 : 0);
+  // `bits` counts those of a word after the second scan, `bits_upwards` those of a word after the first. A
+  // solid's material takes those of a record.
+  static int bits(const RunWidths& widths, const Design& design) {
+    return std::max(record_bits(widths, design), solid_bits(design)) + (design.freezes() ? 1 : 0);
   }
-  static int bits_upwards(const RunWidths& widths, bool hot, bool thermal, bool freezes) {
-    return bits(widths, hot, thermal, freezes) + (hot ? 1 + 16 : 0);
+  static int bits_upwards(const RunWidths& widths, const Design& design) {
+    const int record = record_bits(widths, design) + (design.hot() ? 1 + 16 : 0);
+    return std::max(record, solid_bits(design)) + (design.freezes() ? 1 : 0);
+  }
+
+ private:
+  static int record_bits(const RunWidths& widths, const Design& design) {
+    const bool thermal = design.hot() && design.parameters.flow.thermal_viscosity;
+    return kSettleKindBits + widths.sum + widths.count + (design.hot() ? 16 : 0) + (thermal ? 16 : 0);
+  }
+  static int solid_bits(const Design& design) {
+    return kSettleKindBits + 16 + (design.hot() ? 16 : 0) + (design.of_materials() ? 4 : 0);
   }
 };
 
@@ -75,7 +86,9 @@ class SumScan {
     } else if (was_in_run) {
       done = record(excess, hot, dither);
     }
-    held_ = {kind, cell.amount + up.amount, 0, up.into(cell.amount, cell.heat, dither), 0, 0, 0, cell.set};
+    held_ = {
+        kind,         cell.amount + up.amount, 0, up.into(cell.amount, cell.heat, dither), 0, 0, 0, cell.set,
+        cell.material};
     add(cell, kind, hot);
     return done;
   }
@@ -186,7 +199,8 @@ class ShowScan {
       cell.state = word.kind == SettleKind::solid ? State::solid : State::inert;
       cell.amount = std::int64_t{word.sum};
       cell.heat = word.heat;
-      rise_ = cell.state == State::solid ? std::int64_t{solids.rise(cell.amount, cell.heat)}
+      cell.material = word.material;
+      rise_ = cell.state == State::solid ? std::int64_t{solids.rise(cell.amount, cell.heat, cell.material)}
                                          : std::int64_t{rise_of_inert(cell.amount)};
       return;
     }

@@ -38,10 +38,11 @@ class Settle final : public Stage {
   }
   int width_of(Wire wire) const override { return wire == Wire::head ? widths_.head : Stage::width_of(wire); }
   std::vector<BufferCost> buffers() const override {
-    const bool thermal = flow_.thermal_viscosity, freezes = design().freezes();
-    return {
-        downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, hot_, thermal, freezes)),
-        upwards_.cost("column reverser up", SettleWord::bits(widths_, hot_, thermal, freezes))};
+    std::vector<BufferCost> buffers{
+        downwards_.cost("column reverser down", SettleWord::bits_upwards(widths_, design())),
+        upwards_.cost("column reverser up", SettleWord::bits(widths_, design()))};
+    if (hot_) add_table(buffers, "beds of the materials", design(), SolidBed::kRowBits);
+    return buffers;
   }
 
   // Multipliers serve depth squared, the mobility in two parts, and four its change by

@@ -48,8 +48,11 @@ struct Design {
   // The paper law uses the sides before melt, which conduction has in its window. Without heat nothing melts,
   // and a separate stage finds them.
   bool walls_in_conduction() const { return paper() && hot() && needs_walls(); }
+  bool of_materials() const { return parameters.has_materials(); }
+  int materials() const { return of_materials() ? static_cast<int>(parameters.materials.size()) : 1; }
+  KeptFields kept() const { return {paper(), hot(), of_materials()}; }
   // Returns the bits of a cell between two stages without side bands.
-  int cell_bits() const { return bits_in_memory(paper(), hot()); }
+  int cell_bits() const { return bits_in_memory(kept()); }
 };
 
 // Every cycle of a stage is exactly one of these. `fill_drain` cycles come before its first token, after its

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
+#include "hwmodel/pipeline/model/materials.h"
 #include "hwmodel/pipeline/model/stage.h"
 
 namespace voxmelt::hwmodel {
@@ -20,24 +22,22 @@ inline UInt<14> rise_of_inert(std::int64_t amount) { return (amount + 2048) >> 3
 class SolidBed {
  public:
   static constexpr int kRiseBits = 10;
+  static constexpr int kRowBits = 16 + 16 + 2 + 14;  // of a material: its melting heat, range, shift, scale
 
-  explicit SolidBed(const Design& design)
-      : hot_(design.hot()),
-        melts_at_(design.parameters.material.melting_point + design.parameters.material.latent_heat),
-        range_(std::max<std::int64_t>(design.parameters.material.latent_heat, kOne)) {
-    int shift = 0;
-    while (range_ << (shift + 1) < 65536) ++shift;
-    shift_ = shift;
-    const std::int64_t whole = range_ << shift;
-    scale_ = ((std::int64_t{1} << 28) + whole - 1) / whole;
+  explicit SolidBed(const Design& design) : hot_(design.hot()), curves_(design.parameters) {
+    const rule::Parameters& parameters = design.parameters;
+    if (!design.of_materials()) add(parameters.material.latent_heat);
+    for (const rule::SolidMaterial& material : parameters.materials) add(material.latent_heat);
   }
 
-  UInt<kRiseBits> rise(std::int64_t amount, std::int64_t heat) const {
+  UInt<kRiseBits> rise(std::int64_t amount, std::int64_t heat, std::int64_t material = 0) const {
     UInt<13> part = kOne;  // the part that is not melted
     if (hot_) {
-      const UInt<16> lack = std::clamp<std::int64_t>(melts_at_ - heat, 0, range_);
-      const UInt<16> shifted = lack << shift_;
-      part = UInt<29>(shifted * scale_) >> 16;
+      const Melt& melt = looked_up(melts_, material);
+      const std::int64_t left = curves_.liquid_from(material) - heat;
+      const UInt<16> lack = std::clamp<std::int64_t>(left, 0, melt.range);
+      const UInt<16> shifted = lack << melt.shift;
+      part = UInt<29>(shifted * melt.scale) >> 16;
     }
     const UInt<13> filled = std::min<std::int64_t>(amount, kMostFilled);
     return UInt<26>(filled * part) >> 15;
@@ -46,10 +46,23 @@ class SolidBed {
  private:
   static constexpr std::int64_t kMostFilled = 4095 + 2048;  // no bed offset is beyond 4095
 
+  struct Melt {
+    UInt<16> range;  // how much heat it takes to melt
+    UInt<2> shift;   // brings the range to 32768 and above
+    UInt<14> scale;
+  };
+
+  void add(std::int64_t latent_heat) {
+    const std::int64_t range = std::max(latent_heat, kOne);
+    int shift = 0;
+    while (range << (shift + 1) < 65536) ++shift;
+    const std::int64_t whole = range << shift;
+    melts_.push_back({range, shift, ((std::int64_t{1} << 28) + whole - 1) / whole});
+  }
+
   bool hot_;
-  UInt<16> melts_at_, range_;  // least heat of the melt; how much heat it takes to melt
-  UInt<2> shift_;              // brings the range to 32768 and above
-  UInt<14> scale_;
+  Curves curves_;
+  std::vector<Melt> melts_;  // index: material
 };
 
 // Returns the head of a bed below height y, in 1/512 cell.

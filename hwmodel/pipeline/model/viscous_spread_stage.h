@@ -42,9 +42,7 @@ class ViscousSpread final : public Stage {
     return Wires{Wire::in_run}.add(Wire::beside_wall, walls_).add(Wire::set, design().freezes());
   }
   std::vector<BufferCost> buffers() const override {
-    const bool freezes = design().freezes();
-    const std::int64_t open = SpreadWord::bits(head_bits_, hot_, walls_, freezes);
-    const std::int64_t done = SpreadWord::done_bits(hot_, walls_, freezes);
+    const std::int64_t open = SpreadWord::bits(head_bits_, design()), done = SpreadWord::done_bits(design());
     const std::int64_t column = shape().column(), between = shape().plane() - column;
     std::vector<BufferCost> costs{{"column memory", column, lanes(), open}};
     if (between > 0) costs.push_back({"plane memory", between, lanes(), open});
@@ -52,6 +50,7 @@ class ViscousSpread final : public Stage {
     costs.push_back({"column memory, last lane", column, 1, open});
     costs.push_back({"floor memory", shape().blocks(), lanes(), RunPace::kBits});
     costs.push_back({"floor memory, last lane", 1, 1, RunPace::kBits});
+    if (hot_) add_table(costs, "beds of the materials", design(), SolidBed::kRowBits);
     return costs;
   }
 
@@ -127,7 +126,8 @@ class ViscousSpread final : public Stage {
     if (hot_) word.heat = cell.heat;
     if (cell.blocked()) {
       word.ground = cell.state == State::solid ? Ground::solid : Ground::inert;
-      if (cell.state == State::solid) word.melted = solids_.rise(cell.amount, cell.heat);
+      word.material = cell.material;
+      if (cell.state == State::solid) word.melted = solids_.rise(cell.amount, cell.heat, cell.material);
       return;
     }
     word.ground = cell.in_run ? Ground::run : Ground::outside;
@@ -286,6 +286,7 @@ class ViscousSpread final : public Stage {
     cell.amount = word.amount;
     cell.heat = word.heat;
     cell.state = word.ground == Ground::solid ? State::solid : State::inert;
+    cell.material = word.material;
     if (word.blocked()) return;
     cell.state = State::liquid;
     cell.settle_state();

@@ -10,20 +10,23 @@
 
 namespace voxmelt::hwmodel {
 
-// Pairs a number that a word in memory holds with its wire.
+// Pairs a number that a word in memory holds with its wire. A volume may lack an optional field.
 template <auto kOfCell, auto kOfVolume>
 struct MemoryNumber {
   static void read(const state::Volume& volume, state::Slot slot, Cell& cell) {
-    cell.*kOfCell = (volume.*kOfVolume)[slot];
+    const auto& numbers = volume.*kOfVolume;
+    cell.*kOfCell = numbers.empty() ? 0 : numbers[slot];
   }
   static void write(const Cell& cell, state::Volume& volume, state::Slot slot) {
-    auto& number = (volume.*kOfVolume)[slot];
+    auto& numbers = volume.*kOfVolume;
+    if (numbers.empty()) return;
+    auto& number = numbers[slot];
     number = static_cast<std::remove_reference_t<decltype(number)>>(cell.*kOfCell);
   }
 };
-inline constexpr std::tuple<MemoryNumber<&Cell::amount, &state::Volume::amount>,
-                            MemoryNumber<&Cell::energy, &state::Volume::energy>,
-                            MemoryNumber<&Cell::heat, &state::Volume::heat>>
+inline constexpr std::tuple<
+    MemoryNumber<&Cell::amount, &state::Volume::amount>, MemoryNumber<&Cell::energy, &state::Volume::energy>,
+    MemoryNumber<&Cell::heat, &state::Volume::heat>, MemoryNumber<&Cell::material, &state::Volume::material>>
     kMemoryNumbers;
 
 inline void read_numbers(const state::Volume& volume, state::Slot slot, Cell& cell) {

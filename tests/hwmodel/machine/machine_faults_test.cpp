@@ -37,7 +37,10 @@ std::string identifier(std::string_view name) {
 class PlantedInStream : public testing::TestWithParam<FaultInfo> {};
 
 MachineReport prove(const std::string& name, Fault fault, bool on_dram) {
-  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+  const std::filesystem::path scenes(VOXMELT_SCENES_FOLDER);
+  const std::filesystem::path folder =
+      is_of_materials(fault) ? scenes.parent_path() / "tests/hwmodel/mutants/scenes" : scenes;
+  scene::Scene scene = scene::load(folder / (name + ".toml"), {});
   scene.camera.width = scene.camera.height = 16;
   MachineOptions options;
   options.steps.steps = 8;
@@ -61,7 +64,9 @@ MachineReport prove(const std::string& name, Fault fault, bool on_dram) {
 TEST_P(PlantedInStream, IsFoundWhereItWasPlanted) {
   const FaultInfo& fault = GetParam();
   int struck = 0;
-  for (const char* name : {"proving_ground", "proving_ground_viscous"}) {
+  const bool materials = is_of_materials(fault.fault);
+  for (const char* name : {materials ? "materials" : "proving_ground",
+                           materials ? "materials_viscous" : "proving_ground_viscous"}) {
     const MachineReport report = prove(name, fault.fault, struck == 0);
     EXPECT_TRUE(report.pictures.good()) << name;
     if (!report.steps.strike) {

@@ -90,6 +90,7 @@ inline Start hostile_start(std::uint64_t seed, rule::Law law, state::Grid grid) 
   rule::Parameters parameters = worlds::hostile_parameters(random, law, grid);
   worlds::may_freeze(random, parameters);
   state::Volume volume = worlds::hostile_volume(random, parameters, grid);
+  worlds::may_be_of_materials(random, parameters, volume);
   return {"hostile " + std::to_string(seed), std::move(parameters), std::move(volume), 0};
 }
 

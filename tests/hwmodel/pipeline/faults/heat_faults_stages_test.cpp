@@ -28,13 +28,14 @@ std::map<std::string, int> strikes(const Planted& planted, int count) {
     worlds::Random random(static_cast<std::uint64_t>(world) * 7919 + 5);
     const state::Grid grid{random.between(1, 12), random.between(1, 9), random.between(1, 6)};
     const rule::Law law = random.any({rule::Law::paper, rule::Law::viscous});
-    const Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    const state::Volume start = volume_of_materials(random, design.parameters, grid);
     FaultPlan plan(planted.fault, random.one_in(2) ? 0 : 1);
     Stages stages;
     planted.make(design, planted_stages(plan), stages);
     if (stages.empty()) continue;
     StageRun run{random.any({1, 2, 5}), random.one_in(2) ? 0u : 7u, 0};
-    each_phase(design.parameters, worlds::hostile_volume(random, design.parameters, grid), planted.phase, 3,
+    each_phase(design.parameters, start, planted.phase, 3,
                [&](std::uint32_t step, const auto& before, const auto& after, auto* irradiance) {
                  const state::Volume result =
                      run_stages(design, stages, step::Moment(step), irradiance, before, run);
@@ -72,6 +73,8 @@ TEST(HeatFaults, Conduction) {
   for (const Fault fault : {Fault::conduction_sign, Fault::conduction_dither, Fault::conduction_stale_row})
     expect_struck({fault, step::Phase::heat, heat_of, {"conduction", "edges", "corners"}});
   expect_struck({Fault::wall_drifts, step::Phase::heat, heat_of, {"conduction", "edges", "corners"}});
+  for (const Fault fault : {Fault::conduction_first, Fault::conduction_mean})
+    expect_struck({fault, step::Phase::heat, heat_of, {"conduction", "edges", "corners"}});
   expect_struck({Fault::distant_wrong_axis, step::Phase::heat, heat_of, {"edges", "corners"}});
 }
 
@@ -80,11 +83,15 @@ TEST(HeatFaults, ConvectionAndExchange) {
   expect_struck({Fault::irradiance_lane, step::Phase::heat, heat_of, {"exchange"}});
   expect_struck({Fault::air_axis_missed, step::Phase::heat, heat_of, {"exchange"}});
   expect_struck({Fault::glow_square, step::Phase::heat, heat_of, {"exchange"}});
+  expect_struck({Fault::air_first, step::Phase::heat, heat_of, {"exchange"}});
+  expect_struck({Fault::air_warmth, step::Phase::heat, heat_of, {"exchange"}});
 }
 
 TEST(HeatFaults, Melt) {
   expect_struck({Fault::melt_stuck, step::Phase::melt, melt_of, {"melt"}});
   expect_struck({Fault::melt_energy, step::Phase::melt, melt_of, {"melt"}});
+  expect_struck({Fault::melt_material, step::Phase::melt, melt_of, {"melt"}});
+  expect_struck({Fault::melt_heat, step::Phase::melt, melt_of, {"melt"}});
   expect_struck({Fault::freeze_film, step::Phase::melt, melt_of, {"melt"}});
 }
 

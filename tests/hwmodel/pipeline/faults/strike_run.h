@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/pipeline/faults/planted_stages.h"
@@ -39,9 +40,9 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
   for (int world = 0; world < worlds; ++world) {
     worlds::Random random(static_cast<std::uint64_t>(world) * 7919 + 3);
     const state::Grid grid{random.between(1, 20), random.between(1, 8), random.between(1, 6)};
-    const Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
-    run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
-                               worlds::implementation("reference"));
+    Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
+    state::Volume start = volume_of_materials(random, design.parameters, grid);
+    run::Simulation simulation(design.parameters, std::move(start), worlds::implementation("reference"));
     FaultPlan plan(fault, static_cast<std::uint32_t>(random.below(2)));
     Stages stages;
     make(design, planted_stages(plan), stages);

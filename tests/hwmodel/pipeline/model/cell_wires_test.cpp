@@ -17,19 +17,21 @@ namespace {
 
 TEST(CellWires, WidthsAreThoseOfThePage) {
   const std::vector<std::pair<std::string, int>> page{
-      {"state", 2},   {"amount", 16},     {"energy", 16}, {"heat", 16}, {"exposed_axes", 2},
-      {"pattern", 8}, {"beside_wall", 1}, {"touches", 1}, {"set", 1},   {"in_run", 1},
-      {"head", 30},   {"mobility", 22},   {"limit", 14},  {"dead", 25}, {"shut", 1}};
+      {"state", 2},     {"amount", 16},      {"energy", 16}, {"heat", 16},
+      {"material", 4},  {"exposed_axes", 2}, {"pattern", 8}, {"beside_wall", 1},
+      {"touches", 1},   {"set", 1},          {"in_run", 1},  {"head", 30},
+      {"mobility", 22}, {"limit", 14},       {"dead", 25},   {"shut", 1}};
   ASSERT_EQ(kCellWires.size(), page.size());
   for (std::size_t i = 0; i < page.size(); ++i) {
     EXPECT_EQ(kCellWires[i].name, page[i].first);
     EXPECT_EQ(kCellWires[i].bits, page[i].second) << page[i].first;
-    EXPECT_EQ(kCellWires[i].in_memory, i < 4) << page[i].first;
+    EXPECT_EQ(kCellWires[i].in_memory, i < 5) << page[i].first;
   }
-  EXPECT_EQ(bits_in_memory(true, true), 50);
-  EXPECT_EQ(bits_in_memory(true, false), 34);
-  EXPECT_EQ(bits_in_memory(false, true), 34);
-  EXPECT_EQ(bits_in_memory(false, false), 18);
+  EXPECT_EQ(bits_in_memory({.energy = true, .heat = true, .material = false}), 50);
+  EXPECT_EQ(bits_in_memory({.energy = true, .heat = false, .material = false}), 34);
+  EXPECT_EQ(bits_in_memory({.energy = false, .heat = true, .material = false}), 34);
+  EXPECT_EQ(bits_in_memory({.energy = false, .heat = false, .material = false}), 18);
+  EXPECT_EQ(bits_in_memory({.energy = true, .heat = true, .material = true}), 54);
 }
 
 TEST(CellWires, EachReadsAndWritesItsOwnField) {
@@ -52,6 +54,7 @@ TEST(CellWires, TheyAreAllThatACellHas) {
   from.amount = 1;
   from.energy = 2;
   from.heat = 3;
+  from.material = 9;
   from.exposed_axes = 1;
   from.pattern = 77;
   from.beside_wall = 1;
@@ -85,6 +88,22 @@ TEST(CellWires, AWordInMemoryHasTheNumbersOfTheState) {
   read_token(volume, Shape{volume.grid, 3}, Place{}, back);
   EXPECT_EQ(back[1], cell);
   EXPECT_EQ(back[0].state, State::air);
+}
+
+TEST(CellWires, AWordInMemoryHasTheMaterialWhereTheStateHas) {
+  Cell cell;
+  cell.state = State::solid;
+  cell.amount = 4096;
+  cell.material = 15;
+  for (const bool has : {false, true}) {
+    state::Volume volume(state::Grid{3, 1, 1});
+    if (has) volume.material = decltype(volume.material)(volume.grid);
+    write_cell(cell, 1, 0, 0, volume);
+    Cell back[3];
+    read_token(volume, Shape{volume.grid, 3}, Place{}, back);
+    EXPECT_EQ(back[1].material, has ? 15 : 0);
+    EXPECT_EQ(back[0].material, 0);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Hostile worlds may freeze. The reference's phase melt says which places are set in them.
+// Hostile worlds may freeze, and their solids may be of several materials. The reference's phase melt says
+// which places are set in them.
 #pragma once
 
 #include "kernel/engine/scalar/reference.h"
@@ -10,6 +11,14 @@ inline rule::Parameters freezing_parameters(worlds::Random& random, rule::Law la
   rule::Parameters parameters = worlds::hostile_parameters(random, law, grid);
   worlds::may_freeze(random, parameters);
   return parameters;
+}
+
+// Makes a hostile volume for the last of these parameters, which get the materials of its solids.
+inline state::Volume volume_of_materials(worlds::Random& random, rule::Parameters& parameters,
+                                         const state::Grid& grid) {
+  state::Volume volume = worlds::hostile_volume(random, parameters, grid);
+  worlds::may_be_of_materials(random, parameters, volume);
+  return volume;
 }
 
 // Returns the places that are set behind the phase melt of this state.

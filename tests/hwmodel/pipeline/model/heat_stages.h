@@ -20,6 +20,7 @@ class NoSideBands final : public Stage {
       out[lane].amount = in[lane].amount;
       out[lane].energy = in[lane].energy;
       out[lane].heat = in[lane].heat;
+      out[lane].material = in[lane].material;
       out[lane].state = in[lane].state;
       if (design().walls_in_conduction()) out[lane].beside_wall = in[lane].beside_wall;
       if (design().freezes()) out[lane].touches = in[lane].touches;

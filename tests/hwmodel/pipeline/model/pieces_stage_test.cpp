@@ -78,6 +78,10 @@ World random_world(worlds::Random& random, const Design& design) {
   const state::Grid grid = design.shape.grid;
   World world{worlds::hostile_volume(random, design.parameters, grid), {}, state::BitPlane(grid)};
   state::Volume& v = world.before;
+  v.material = state::Field<std::uint8_t>(grid);
+  worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
+    if (v.solid.test(x, y, z)) v.material[v.at(x, y, z)] = static_cast<std::uint8_t>(random.below(16));
+  });
   world.after = v;
   const auto copy = [&](int x, int from, int to, int z) {
     const state::Slot a = v.at(x, from, z), b = v.at(x, to, z);
@@ -86,6 +90,7 @@ World random_world(worlds::Random& random, const Design& design) {
     world.after.amount[b] = v.amount[a];
     world.after.energy[b] = v.energy[a];
     world.after.heat[b] = v.heat[a];
+    world.after.material[b] = v.material[a];
   };
   worlds::for_each(worlds::whole(grid), [&](int x, int y, int z) {
     if (y == 0 || v.inert.test(x, y, z) || v.inert.test(x, y - 1, z) || random.one_in(2)) return;
@@ -151,7 +156,7 @@ TEST(PiecesStage, WorksOnlyInPassesInWhichSomethingFalls) {
 // The first cell that differs must be the one that the fault names.
 TEST(PiecesStage, EachFaultMakesTheCellWrongThatItNames) {
   for (const Fault fault : {Fault::fall_not_passed, Fault::fall_late, Fault::fall_lane,
-                            Fault::fall_below_lost, Fault::fall_heat_stays}) {
+                            Fault::fall_below_lost, Fault::fall_heat_stays, Fault::fall_material_stays}) {
     int struck = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       worlds::Random random(seed * 37 + 11);

@@ -48,6 +48,7 @@ inline state::Volume run_stages(const Design& design, const Stages& stages, step
   }
 
   state::Volume result(volume.grid);
+  if (!volume.material.empty()) result.material = decltype(result.material)(volume.grid);
   const bool fed = irradiance != nullptr && std::any_of(stages.begin(), stages.end(), [](const auto& stage) {
                      return stage->kind() == StageKind::exchange;
                    });
@@ -112,8 +113,8 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
                                        random.any({1, 2, 5})}
                          : state::Grid{random.between(1, 14), random.between(1, 14), random.between(1, 14)};
     Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
-    run::Simulation simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
-                               worlds::implementation("reference"));
+    state::Volume start = volume_of_materials(random, design.parameters, grid);
+    run::Simulation simulation(design.parameters, std::move(start), worlds::implementation("reference"));
     const std::unique_ptr<visibility::Provider> provider = std::make_unique<visibility::VoxelWalkProvider>(1);
     step::Irradiance irradiance(grid);
     const rule::Heat& heat = design.parameters.heat;

@@ -270,6 +270,7 @@ TEST(ViscousStages, SpreadHandsOnRunsAndWallsAndNothingElse) {
         state_only.state = cell.state;
         state_only.amount = cell.amount;
         state_only.heat = cell.heat;
+        state_only.material = cell.material;
         ASSERT_EQ(plain, state_only);
         runs += in_run;
         walls += beside_wall;
@@ -319,6 +320,20 @@ TEST(SolidBed, OfAWholeThatIsNoPowerOfTwo) {
   EXPECT_EQ(bed.rise(4096, 30000), 512);
   EXPECT_EQ(bed.rise(4096, 32500), 256);
   EXPECT_EQ(bed.rise(4096, 32501), 255);
+}
+
+// The second material melts at 20000 with a warmth of 1/2: it is solid up to 40000, takes 8192 more, and is
+// liquid from 48192 on. Half way: h = 48192 - 4096, as above. The first one is melted at 38192.
+TEST(SolidBed, OfASecondMaterial) {
+  Design design = bed_design({1, 1, 1}, 8192);
+  design.parameters.materials = {{.melting_point = 30000, .latent_heat = 8192},
+                                 {.melting_point = 20000, .latent_heat = 8192, .warmth = 32768}};
+  const SolidBed bed(design);
+  EXPECT_EQ(bed.rise(1024, 40000, 1), 128);
+  EXPECT_EQ(bed.rise(1024, 44096, 1), 64);
+  EXPECT_EQ(bed.rise(65535, 48191, 1), 0);
+  EXPECT_EQ(bed.rise(1024, 34096, 0), 64);
+  EXPECT_EQ(bed.rise(65535, 40000, 0), 0);
 }
 
 // At all latent heats no wire is too narrow, a cold solid is filled by its amount, and a bed never rises as

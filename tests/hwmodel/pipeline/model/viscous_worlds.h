@@ -1,6 +1,8 @@
 // Worlds of the viscous law for single stages have a hostile volume of a given size, and run phase by phase.
 #pragma once
 
+#include <utility>
+
 #include "tests/hwmodel/pipeline/model/stage_run.h"
 
 namespace voxmelt::hwmodel {
@@ -12,9 +14,7 @@ struct ViscousWorld {
   state::BitPlane set{design.shape.grid};  // by the last phase melt
 
   ViscousWorld(worlds::Random& random, const state::Grid& grid, int lanes)
-      : design{freezing_parameters(random, rule::Law::viscous, grid), {grid, lanes}},
-        simulation(design.parameters, worlds::hostile_volume(random, design.parameters, grid),
-                   worlds::implementation("reference")) {}
+      : ViscousWorld(hostile(random, grid, lanes)) {}
 
   // A world of vaults, instead of a hostile volume.
   static ViscousWorld of_vaults(worlds::Random& random, const state::Grid& grid, int lanes) {
@@ -26,6 +26,16 @@ struct ViscousWorld {
 
   ViscousWorld(const Design& the_design, const state::Volume& start)
       : design(the_design), simulation(design.parameters, start, worlds::implementation("reference")) {}
+
+  explicit ViscousWorld(const std::pair<Design, state::Volume>& begin)
+      : ViscousWorld(begin.first, begin.second) {}
+
+  static std::pair<Design, state::Volume> hostile(worlds::Random& random, const state::Grid& grid,
+                                                  int lanes) {
+    Design design{freezing_parameters(random, rule::Law::viscous, grid), {grid, lanes}};
+    state::Volume start = volume_of_materials(random, design.parameters, grid);
+    return {design, std::move(start)};
+  }
 
   // Runs a whole step of the reference, and calls at(phase, state before it) after each phase.
   template <class At>
