@@ -137,10 +137,11 @@ struct BrickKernels {
   // Without intensity there is no matter, so what lies beyond a row's end does not count.
   [[gnu::always_inline]] static void words_of(const MatterSource& matter, std::size_t cell, const Row& level,
                                               Int& words) {
-    Row soft, other{};
+    Row soft, other{}, warm{};
     load(soft, matter.liquid + cell);
     if (matter.obstacle != nullptr) load(other, matter.obstacle + cell);
-    const Row shares = level == 0 ? Row{} : soft | other;
+    if (matter.heat != nullptr) load(warm, matter.heat + cell);
+    const Row shares = level == 0 ? Row{} : soft | other | warm;
     if (!any(shares)) return;
     Row hard;
     load(hard, matter.solid + cell);
@@ -158,14 +159,15 @@ struct BrickKernels {
       words |= share << 16;
     }
     if (matter.heat != nullptr) {
-      Row warm;
-      load(warm, matter.heat + cell);
-      Int heat, step;
+      Row carrier;
+      load(carrier, matter.carrier + cell);
+      Int heat, amount, step;
       wide(warm, heat);
-      quotient(heat * 256, liquid, step);
+      wide(carrier, amount);
+      quotient(heat * 256, amount, step);
       step = step > 256 ? Int{} + 256 : step;
       for (int i = 0; i < kCells; ++i) heat[i] = matter.heats[step[i]] << 8;
-      words |= liquid == 0 ? Int{} : heat;
+      words |= amount == 0 ? Int{} : heat;
     }
     Int shown;
     wide(level, shown);

@@ -23,10 +23,12 @@ struct BrickSource {
   int count_x, count_y, count_z;  // cells inside the grid
 };
 
-// Points to the filtered shares of a field. Without obstacles `obstacle` is null, and without glow `heat` is.
+// Points to the filtered shares of a field. Without obstacles `obstacle` is null. Without glow and without
+// solids of several colours `heat` is.
 struct MatterSource {
   const std::uint16_t *solid, *liquid, *heat, *obstacle;  // obstacle and heat may be null
-  const std::uint8_t* heats;                              // indexed by the temperature, 0 .. 256
+  const std::uint16_t* carrier;  // what has the heat: the liquid, or the solid if the heat is its tone
+  const std::uint8_t* heats;     // byte of the heat by its mean in what carries it, 0 .. 256
 };
 
 // Holds the levels and the words (liquid + 256 heat + 65536 obstacle) of such a brick. Cells outside the grid

@@ -45,6 +45,8 @@ void BrickWriter::write_matter(const state::Grid& brick) {
   const auto field = [&](const state::Field<std::uint16_t>& values) {
     return Block<const std::uint16_t>{values.data() + cell, layout.row(), layout.slice()};
   };
+  const Block<const std::uint8_t> materials{
+      volume_.material.empty() ? nullptr : volume_.material.data() + cell, layout.row(), layout.slice()};
   const std::size_t words = volume_.solid.row_words();
   const MatterBrick from{box.high.x - box.low.x,
                          box.high.y - box.low.y,
@@ -56,13 +58,15 @@ void BrickWriter::write_matter(const state::Grid& brick) {
                          brick.x % 8 * kBrickSide,
                          field(volume_.amount),
                          field(volume_.heat),
+                         materials,
                          kept(fields_.solid),
                          kept(fields_.liquid),
                          kept(fields_.heat),
                          fields_.uniform(kSolid, index) != 0,
                          fields_.uniform(kLiquid, index) != 0,
                          fields_.uniform(kHeat, index) != 0,
-                         heat_};
+                         fields_.wanted_.heat,
+                         fields_.wanted_.tones ? fields_.wanted_.tones->data() : nullptr};
   const MatterFound found = loops_.matter(from);
 
   BrickChange& change = fields_.changes_[index];

@@ -14,10 +14,10 @@ namespace voxmelt::render {
 
 class BrickWriter {
  public:
-  BrickWriter(const state::Volume& volume, CellFields& fields, bool heat, const Loops& with)
-      : volume_(volume), fields_(fields), heat_(heat), loops_(with) {}
+  BrickWriter(const state::Volume& volume, CellFields& fields, const Loops& with)
+      : volume_(volume), fields_(fields), loops_(with) {}
 
-  // Writes the solid, liquid and heat of a brick.
+  // Writes the solid, liquid and heat (or tone) of a brick.
   void write_matter(const state::Grid& brick);
   // Takes over the inert cells of the word of 64 cells along x that holds the brick, on all of its rows.
   // Returns the places along x at which one has changed.
@@ -42,7 +42,6 @@ class BrickWriter {
 
   const state::Volume& volume_;
   CellFields& fields_;
-  bool heat_;
   const Loops& loops_;
   CellBox box_{};
   Cells intensity_{}, obstacle_{};

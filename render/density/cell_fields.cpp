@@ -31,7 +31,7 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
   changed_.clear();
   Columns::News news;
   news.everything = !same_terrain(terrain) || wanted.smooth != wanted_.smooth;
-  const bool other_heat = wanted.heat != wanted_.heat;
+  const bool other_heat = wanted.heat != wanted_.heat || wanted.tones != wanted_.tones;
   if (!news.everything && !other_heat && volume.changed.none_since(seen)) return;
 
   const bool all = other_heat || news.everything || volume.changed.all_since(seen);
@@ -58,7 +58,7 @@ void CellFields::update(const state::Volume& volume, const state::ChangedBricks:
 template <class Marked>
 void CellFields::take_matter(const state::Volume& volume, int bz, const Marked& marked, Columns::News& news,
                              const Loops& with) {
-  BrickWriter writer(volume, *this, wanted_.heat, with);
+  BrickWriter writer(volume, *this, with);
   std::size_t brick = bricks.index(0, 0, bz);
   for (int by = 0; by < bricks.y; ++by) {
     int word = -1;  // word whose inert cells are known
@@ -82,7 +82,7 @@ void CellFields::take_matter(const state::Volume& volume, int bz, const Marked& 
 void CellFields::write_intensities(const state::Volume& volume, int bz, const Columns::News& news,
                                    const std::vector<Extent>& another, const Loops& with,
                                    std::vector<std::uint32_t>& changed) {
-  BrickWriter writer(volume, *this, wanted_.heat, with);
+  BrickWriter writer(volume, *this, with);
   std::size_t brick = bricks.index(0, 0, bz);
   const std::size_t row = bricks.x;
   for (int by = 0; by < bricks.y; ++by)
@@ -108,7 +108,7 @@ void CellFields::write_intensities(const state::Volume& volume, int bz, const Co
 CellFields cell_fields(const state::Volume& volume, int smooth, const scene::Terrain& terrain) {
   CellFields fields(volume.grid);
   cpu::Workers alone(1);
-  fields.update(volume, {}, {smooth, true}, terrain, alone);
+  fields.update(volume, {}, {smooth, true, {}}, terrain, alone);
   return fields;
 }
 

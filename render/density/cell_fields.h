@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
@@ -21,6 +22,7 @@
 #include "render/density/brick.h"
 #include "render/density/columns.h"
 #include "render/density/loops.h"
+#include "render/density/tones.h"
 #include "render/density/values.h"
 
 namespace voxmelt::render {
@@ -36,7 +38,8 @@ struct ChannelValues {
   Values<std::uint16_t> intensity;  // matter, obstacles and the ground that carries them
   Values<std::uint16_t> solid;      // the solid's part of the intensity
   Values<std::uint16_t> liquid;     // the liquid's part
-  Values<std::uint16_t> heat;       // liquid * temperature, so that thin cells weigh little; 0 without glow
+  Values<std::uint16_t> heat;       // liquid * temperature, so that thin cells weigh little;
+                                    // without glow solid * tone, or 0
   Values<std::uint16_t> obstacle;   // the obstacles' part
 
   ChannelValues() = default;
@@ -68,8 +71,9 @@ class CellFields : public ChannelValues {
   state::Grid grid, bricks;
 
   struct Wanted {
-    int smooth = 0;     // smoothing of the terraces of puddles, 0 for none
-    bool heat = false;  // if false, the heat is 0 everywhere
+    int smooth = 0;              // smoothing of the terraces of puddles, 0 for none
+    bool heat = false;           // if false, the heat is 0 everywhere
+    std::optional<Tones> tones;  // if given, there is no heat, but solid * tone
   };
   // Takes over another state of the same size. Parts that are known to be unchanged are left out.
   void update(const state::Volume& volume, const state::ChangedBricks::Seen& seen, const Wanted& wanted,

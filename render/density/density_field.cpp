@@ -13,7 +13,8 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   if (!workers_ || workers_->threads() != threads) workers_ = std::make_unique<cpu::Workers>(threads);
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
-  const bool other = !(volume.grid == grid()) || look.glow != glow_;
+  const std::optional<Tones> tones = tones_of(look);
+  const bool other = !(volume.grid == grid()) || look.glow != glow_ || tones != tones_;
   if (other) {  // everything starts again from the field of an empty volume
     cells_ = CellFields(volume.grid);
     filtered_ = ChannelValues(volume.grid.cells());
@@ -22,6 +23,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
     rows_.assign(static_cast<std::size_t>(bricks().y) * bricks().z, 0);
     filters_.clear();
     glow_ = look.glow;
+    tones_ = tones;
     seen_ = {};
   }
   const bool other_filter = liquid_passes != liquid_passes_ || solid_passes != solid_passes_;
@@ -29,7 +31,7 @@ int DensityField::update(const state::Volume& volume, const scene::Look& look, c
   solid_passes_ = solid_passes;
 
   const bool had_obstacles = has_obstacles();
-  cells_.update(volume, seen_, {liquid_passes, look.glow}, terrain, *workers_, with);
+  cells_.update(volume, seen_, {liquid_passes, look.glow, tones}, terrain, *workers_, with);
   seen_ = volume.changed.now();
   if (has_obstacles() != had_obstacles) filtered_.obstacle = Values<std::uint16_t>(cells_.obstacle.size());
   refreshed_.clear();

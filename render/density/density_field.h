@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
@@ -48,7 +49,7 @@ class DensityField {
   const Values<std::uint16_t>& intensity() const { return filtered_.intensity; }
   const Values<std::uint16_t>& solid() const { return filtered_.solid; }
   const Values<std::uint16_t>& liquid() const { return filtered_.liquid; }
-  const Values<std::uint16_t>& heat() const { return filtered_.heat; }          // 0 if the look does not glow
+  const Values<std::uint16_t>& heat() const { return filtered_.heat; }          // or tone, or 0
   const Values<std::uint16_t>& obstacle() const { return filtered_.obstacle; }  // empty if there is none
   const std::vector<std::int32_t>& ground() const { return cells_.columns().ground(); }    // 1/4096 cell
   const std::vector<std::int32_t>& wetness() const { return cells_.columns().wetness(); }  // 0..4096
@@ -63,6 +64,7 @@ class DensityField {
   ChannelValues filtered_;
   int liquid_passes_ = -1, solid_passes_ = -1;
   bool glow_ = false;
+  std::optional<Tones> tones_;
   state::ChangedBricks::Seen seen_;
   BrickFlags dirty_;                // channels to filter
   std::vector<DirtyPart> parts_;    // parts of bricks to filter

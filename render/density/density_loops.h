@@ -77,7 +77,8 @@ struct DensityLoops {
     std::uint64_t solids[kRows], liquids[kRows], any_solid = 0, any_liquid = 0;
   };
   // Reads the masks. The kept values lie far apart in memory, so they are prefetched here.
-  template <bool kHeat>
+  enum class Carried { nothing, heat, tone };  // what the channel of heat holds
+  template <Carried kCarried>
   [[gnu::always_inline]] static void take_rows(const MatterBrick& brick, Rows& rows) {
     for (int k = 0; k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
@@ -88,8 +89,8 @@ struct DensityLoops {
         if ((rows.solids[r] | rows.liquids[r]) != 0) __builtin_prefetch(at(brick.amount, j, k));
         if (brick.kept_solid) __builtin_prefetch(at(brick.to_solid, j, k));
         if (brick.kept_liquid) __builtin_prefetch(at(brick.to_liquid, j, k));
-        if (kHeat && rows.liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
-        if (kHeat && brick.kept_heat) __builtin_prefetch(at(brick.to_heat, j, k));
+        if (kCarried == Carried::heat && rows.liquids[r] != 0) __builtin_prefetch(at(brick.heat, j, k));
+        if (kCarried != Carried::nothing && brick.kept_heat) __builtin_prefetch(at(brick.to_heat, j, k));
       }
   }
 
@@ -122,14 +123,36 @@ struct DensityLoops {
     }
   };
 
-  template <bool kWhole, bool kHeat>
+  [[gnu::always_inline]] static void heat_of(const U16& liquid, const std::uint16_t* temperatures,
+                                             U16& heat) {
+    U32 wide, temperature;
+    load_as(temperature, temperatures);
+    wide = __builtin_convertvector(liquid, U32);
+    heat = __builtin_convertvector(wide * temperature >> 16, U16);
+  }
+
+  // Computes solid * tone / 256, rounded up. So the tone is found again by a quotient that is rounded down.
+  [[gnu::always_inline]] static void tone_of(const U16& solid, const MatterBrick& brick, int j, int k,
+                                             U16& heat) {
+    U32 wide, tone;
+    for (int lane = 0; lane < kGroup; ++lane)
+      tone[lane] =
+          brick.tones[brick.material.cells == nullptr || solid[lane] == 0 ? 0
+                                                                          : at(brick.material, j, k)[lane]];
+    wide = __builtin_convertvector(solid, U32);
+    heat = __builtin_convertvector((wide * tone + 255) >> 8, U16);
+  }
+
+  template <bool kWhole, Carried kCarried>
   static MatterFound matter_of(const MatterBrick& brick) {
     Rows rows;
-    take_rows<kHeat>(brick, rows);
+    take_rows<kCarried>(brick, rows);
     ChannelChange<kWhole> of_solid, of_liquid, of_heat;
     const bool hard = rows.any_solid != 0 || brick.kept_solid,
                wet = rows.any_liquid != 0 || brick.kept_liquid,
-               warm = kHeat && (rows.any_liquid != 0 || brick.kept_heat);
+               warm =
+                   kCarried != Carried::nothing &&
+                   ((kCarried == Carried::tone ? rows.any_solid : rows.any_liquid) != 0 || brick.kept_heat);
     for (int k = 0; (hard || wet || warm) && k < brick.z; ++k)
       for (int j = 0; j < brick.y; ++j) {
         const int r = k * kBrickSide + j;
@@ -139,26 +162,26 @@ struct DensityLoops {
           value = value > 4096 ? U16{} + 4096 : value;
           value = (value << 4) - ((value + 15) >> 4);  // 255 a / 16, rounded down
         }
-        if (hard) of_solid.take(value & lanes_of(rows.solids[r]), at(brick.to_solid, j, k), brick.x, j, k);
+        const U16 solid = value & lanes_of(rows.solids[r]);
+        if (hard) of_solid.take(solid, at(brick.to_solid, j, k), brick.x, j, k);
         const U16 liquid = value & lanes_of(rows.liquids[r]);
         if (wet) of_liquid.take(liquid, at(brick.to_liquid, j, k), brick.x, j, k);
         if (!warm) continue;
         U16 heat{};
-        if (rows.liquids[r] != 0) {
-          U32 wide, temperature;
-          load_as(temperature, at(brick.heat, j, k));
-          wide = __builtin_convertvector(liquid, U32);
-          heat = __builtin_convertvector(wide * temperature >> 16, U16);
-        }
+        if (kCarried == Carried::heat && rows.liquids[r] != 0) heat_of(liquid, at(brick.heat, j, k), heat);
+        if (kCarried == Carried::tone && rows.solids[r] != 0) tone_of(solid, brick, j, k, heat);
         of_heat.take(heat, at(brick.to_heat, j, k), brick.x, j, k);
       }
     return {of_solid.part(), of_liquid.part(), of_heat.part()};
   }
 
+  template <Carried kCarried>
+  static MatterFound matter_carrying(const MatterBrick& brick) {
+    return brick.x == kGroup ? matter_of<true, kCarried>(brick) : matter_of<false, kCarried>(brick);
+  }
   static MatterFound matter(const MatterBrick& brick) {
-    if (brick.with_heat)
-      return brick.x == kGroup ? matter_of<true, true>(brick) : matter_of<false, true>(brick);
-    return brick.x == kGroup ? matter_of<true, false>(brick) : matter_of<false, false>(brick);
+    if (brick.tones != nullptr) return matter_carrying<Carried::tone>(brick);
+    return brick.with_heat ? matter_carrying<Carried::heat>(brick) : matter_carrying<Carried::nothing>(brick);
   }
 
   // Computes (a + 2 b + c) / 4 to nearest, with halves upwards. It does not leave 16 bits, because the mean

@@ -25,9 +25,11 @@ struct MatterBrick {
   std::size_t mask_row, mask_slice;     // words from one row or slice to the next
   int shift;                            // shift of the brick's bits in the word
   Block<const std::uint16_t> amount, heat;
+  Block<const std::uint8_t> material;  // null: all are the first one
   Block<std::uint16_t> to_solid, to_liquid, to_heat;
   bool kept_solid, kept_liquid, kept_heat;  // if false, the kept values are 0 in all of the brick
   bool with_heat;
+  const std::uint8_t* tones;  // by material; if not null, the heat holds the tone of solids (tones.h)
 };
 
 // Tells where cells have changed.

@@ -57,12 +57,14 @@ state::Grid place_in(const state::Grid& bricks, std::size_t brick) {
   return {static_cast<int>(brick % x), static_cast<int>(brick / x % y), static_cast<int>(brick / x / y)};
 }
 
-// Returns the glow's heat by temperature, in 256 steps.
+// Returns the byte of heat by the mean in what carries it, in 256 steps.
 std::array<std::uint8_t, 257> heats_of(const picture::Look& look) {
-  std::array<std::uint8_t, 257> values;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] =
-        static_cast<std::uint8_t>(picture::matter_of(0, 256, static_cast<std::int32_t>(i), 0, look).heat);
+  std::array<std::uint8_t, 257> values{};
+  for (std::int32_t i = 0; i <= 256; ++i) {
+    const picture::Matter matter =
+        look.tinted() ? picture::matter_of(256, 0, i, 0, look) : picture::matter_of(0, 256, i, 0, look);
+    values[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(matter.heat);
+  }
   return values;
 }
 
@@ -163,10 +165,14 @@ std::vector<std::size_t> FieldBricks::give_slots(const DensityField& field, Stal
 
 void FieldBricks::fill_all(const DensityField& field, const picture::Look& look, Stale& stale,
                            cpu::Workers& workers, const BrickLoops& loops) {
-  const auto heats = look.glow ? heats_of(look) : std::array<std::uint8_t, 257>{};
-  const MatterSource matter{field.solid().data(), field.liquid().data(),
-                            look.glow ? field.heat().data() : nullptr,
-                            field.has_obstacles() ? field.obstacle().data() : nullptr, heats.data()};
+  const bool heated = look.glow || look.tinted();
+  const auto heats = heated ? heats_of(look) : std::array<std::uint8_t, 257>{};
+  const MatterSource matter{field.solid().data(),
+                            field.liquid().data(),
+                            heated ? field.heat().data() : nullptr,
+                            field.has_obstacles() ? field.obstacle().data() : nullptr,
+                            look.tinted() ? field.solid().data() : field.liquid().data(),
+                            heats.data()};
   std::vector<std::size_t> sources;
   for (std::size_t brick = 0; brick < stale.source.size(); ++brick)
     if (stale.source[brick] != 0) sources.push_back(brick);

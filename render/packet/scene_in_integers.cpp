@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/density/tones.h"
+
 namespace voxmelt::render {
 namespace {
 
@@ -35,6 +37,10 @@ picture::Look look_in_integers(const scene::Look& look) {
   result.glow = look.glow;
   result.glow_cold = static_cast<std::int32_t>(fixed(look.glow_cold, 16));
   result.glow_hot = static_cast<std::int32_t>(fixed(look.glow_hot, 16));
+  for (const Tint& tint : tints_of(look)) {
+    if (static_cast<std::size_t>(result.tint_count) == picture::kMostTints) break;
+    result.tints[static_cast<std::size_t>(result.tint_count++)] = tint;
+  }
   return result;
 }
 

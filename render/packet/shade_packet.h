@@ -103,6 +103,25 @@ struct ShadePacket : Packet<Arch> {
     a.gloss = P::mixed(a.gloss, L::set(b.gloss), share);
   }
 
+  // Reads the material of a solid's tone, which is in the byte of heat.
+  VOXMELT_WORDS V tint_of(const picture::Paint& paint, V matter, picture::Color picture::Material::*part,
+                          std::size_t channel) {
+    constexpr int kStep = sizeof(picture::Material) / sizeof(std::int32_t);
+    return L::template gather<4>((paint.tints[0].*part).data() + channel, ((matter >> 8) & 255) * kStep);
+  }
+  VOXMELT_WORDS Material of_solid_and_liquid(const picture::Paint& paint, V matter, V liquid) {
+    if (!paint.tinted) return mixed(paint.solid, paint.liquid, liquid);
+    Material material;
+    for (std::size_t c = 0; c < 3; ++c) {
+      material.diffuse.c[c] = tint_of(paint, matter, &picture::Material::diffuse, c);
+      material.mirror.c[c] = tint_of(paint, matter, &picture::Material::mirror, c);
+      material.highlight.c[c] = tint_of(paint, matter, &picture::Material::highlight, c);
+    }
+    material.gloss = L::set(paint.solid.gloss);  // it has nothing to do with the colour
+    mix_in(material, paint.liquid, liquid);
+    return material;
+  }
+
   VOXMELT_WORDS V obstacle_share(V byte) { return L::clamp((byte - 148) * 73, 0, picture::kLight); }
 
   struct Shine {
@@ -110,14 +129,14 @@ struct ShadePacket : Packet<Arch> {
     V more, obstacle;
   };
 
-  // Returns the parts of the light from a surface. `matter` holds liquid, heat and obstacle as bytes of a
-  // lane. `normal` and `out` are those of rule/shade.h.
+  // Returns the parts of the light from a surface. `matter` holds liquid, heat (or tone) and obstacle as
+  // bytes of a lane. `normal` and `out` are those of rule/shade.h.
   VOXMELT_WORDS Shine shine_of(const PictureData& data, Triple normal, Triple out, Triple to_eye,
                                const Light& light, V matter, V obstacle_byte) {
     const picture::Paint& paint = *data.paint;
     const V liquid_byte = matter & 255, liquid = (liquid_byte << 4) + (liquid_byte >> 4);
     const V obstacle = obstacle_share(obstacle_byte);
-    Material material = mixed(paint.solid, paint.liquid, liquid);
+    Material material = of_solid_and_liquid(paint, matter, liquid);
     Color emission{};
     if (paint.glow) {
       const V heat = ((matter >> 8) & 255) * 3;
@@ -186,7 +205,9 @@ struct ShadePacket : Packet<Arch> {
     for (std::size_t c = 0; c < 3; ++c) {
       const V inner =
           ((paint.from_above[c] * above + paint.from_below[c] * below) >> 8) + ((paint.lamp[c] * lamp) >> 9);
-      V diffuse = P::mixed(paint.solid.diffuse[c], paint.liquid.diffuse[c], liquid);
+      const V solid = paint.tinted ? tint_of(paint, matter, &picture::Material::diffuse, c)
+                                   : L::set(paint.solid.diffuse[c]);
+      V diffuse = P::mixed(solid, L::set(paint.liquid.diffuse[c]), liquid);
       if (data.field.obstacles)
         diffuse = P::mixed(diffuse, L::set(paint.obstacle.diffuse[c]), obstacle_share((matter >> 16) & 255));
       color.c[c] = (inner * diffuse) >> 12;

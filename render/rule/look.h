@@ -18,6 +18,7 @@ using Color = std::array<std::int32_t, 3>;  // red, green, blue: linear light, k
 inline constexpr int kLightBits = 12;
 inline constexpr std::int32_t kLight = 1 << kLightBits;
 inline constexpr int kClearBits = 6;
+inline constexpr std::size_t kMostTints = 16;
 
 // Holds the values of a scene file, times kLight to the nearest integer.
 struct Look {
@@ -28,6 +29,12 @@ struct Look {
   std::int32_t frost = 0;  // share that a surface of clear matter scatters
   bool glow = false;
   std::int32_t glow_cold = 0, glow_hot = 0;  // temperatures, 65536 is the scene's range
+  // Holds the colours of solids in the order of their tones. With fewer than two, all have the colour
+  // `solid`.
+  std::array<Color, kMostTints> tints{};
+  std::int32_t tint_count = 0;
+
+  constexpr bool tinted() const { return tint_count > 1; }
 };
 
 struct Lamp {

@@ -13,7 +13,7 @@ namespace voxmelt::picture {
 
 struct Matter {
   std::int32_t liquid = 0;    // share of the liquid in the matter, 0 .. 255
-  std::int32_t heat = 0;      // heat of glowing liquid, 0 .. 255
+  std::int32_t heat = 0;      // heat of glowing liquid, or tone of solids of several colours, 0 .. 255
   std::int32_t obstacle = 0;  // share of obstacles in all, 0 .. 255
 };
 
@@ -30,6 +30,7 @@ VOXMELT_RULE Matter matter_of(std::int32_t solid, std::int32_t liquid, std::int3
     result.heat = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(std::int64_t{temperature - look.glow_cold} * 255 / range, 0, 255));
   }
+  if (look.tinted() && solid > 0) result.heat = std::min(heat * 256 / solid, 255);
   return result;
 }
 

@@ -23,6 +23,7 @@ struct Paint {
   Material solid, liquid, obstacle;
   bool glow = false;
   bool clear = false;
+  bool tinted = false;     // solids have the material of their tone
   Color losses{};          // losses in clear matter
   std::int32_t frost = 0;  // share that its surfaces scatter
   std::int32_t lamp_low = 0, lamp_high = 0,
@@ -30,6 +31,7 @@ struct Paint {
   Highlight highlight{}, dull_highlight{};  // for matter, and for obstacles
   Surroundings surroundings{};
   Glow glow_colors{};
+  Tints tints{};
   Passing passing{};
 };
 
@@ -66,6 +68,8 @@ VOXMELT_RULE Paint paint_of(const Look& look, const Lamp& lamp) {
   paint.dull_highlight = highlight_of(12);
   paint.surroundings = surroundings_of(look);
   paint.glow_colors = glow_table();
+  paint.tinted = look.tinted();
+  paint.tints = tint_table(look, times(look.specular, 2867), paint.lamp);
   return paint;
 }
 
@@ -151,11 +155,14 @@ struct Substance {
   Material material;
   Color emission{};
 };
+VOXMELT_RULE const Material& solid_of(const Paint& paint, Matter matter) {
+  return paint.tinted ? paint.tints[static_cast<std::size_t>(matter.heat)] : paint.solid;
+}
 template <class Watch = Silent>
 VOXMELT_RULE Substance substance_of(const Paint& paint, Matter matter, std::int32_t obstacle,
                                     Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);  // 255 is kLight - 1
-  Substance substance{mixed(paint.solid, paint.liquid, liquid)};
+  Substance substance{mixed(solid_of(paint, matter), paint.liquid, liquid)};
   if (paint.glow) {
     const std::size_t heat = matter.heat;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -235,8 +242,8 @@ template <class Watch = Silent>
 VOXMELT_RULE Color inner_color(const Paint& paint, const Light& light, Matter matter, Watch watch = {}) {
   const std::int32_t liquid = (matter.liquid << 4) + (matter.liquid >> 4);
   const std::int32_t obstacle = obstacle_share(matter);
-  const Color diffuse =
-      mixed(mixed(paint.solid.diffuse, paint.liquid.diffuse, liquid), paint.obstacle.diffuse, obstacle);
+  const Color diffuse = mixed(mixed(solid_of(paint, matter).diffuse, paint.liquid.diffuse, liquid),
+                              paint.obstacle.diffuse, obstacle);
   Color color = inner_light(paint.lamp, paint.from_below, paint.from_above, light);
   watch(Stage::material, "l", liquid);
   watch(Stage::material, "w", obstacle);

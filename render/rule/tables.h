@@ -1,4 +1,5 @@
-// A picture needs tables for the highlight, the surroundings and the glow (docs/picture/light.md, section 2).
+// A picture needs tables for the highlight, the surroundings, the glow and the tones of solids
+// (docs/picture/light.md, section 2).
 #pragma once
 
 #include <algorithm>
@@ -86,6 +87,29 @@ VOXMELT_RULE Glow glow_table() {
                        scaled(h8, 819)};
     table.crust[at] = mixed(kCold, kHot, static_cast<std::int32_t>(h >> 4));
   }
+  return table;
+}
+
+// Holds what solids are made of by their tone, 0 .. 255.
+using Tints = std::array<Material, 256>;
+
+// Returns the colour of a tone. The colours of the look lie at equal distances. Those between two are mixed,
+// and a quarter of the distance belongs to each alone, so that borders are not wider than the filter needs.
+VOXMELT_RULE Color tint_at(const Look& look, std::int32_t tone) {
+  const std::int32_t last = look.tint_count - 1;
+  std::int32_t next = 1;
+  while (next < last && 255 * next / last <= tone) ++next;
+  const std::int32_t low = 255 * (next - 1) / last, high = 255 * next / last;
+  const std::size_t to = next;
+  const std::int32_t share = smooth_light(kLight / 4, 3 * kLight / 4, kLight * (tone - low) / (high - low));
+  return mixed(look.tints[to - 1], look.tints[to], share);
+}
+
+VOXMELT_RULE Tints tint_table(const Look& look, std::int32_t specular, Color lamp) {
+  Tints table{};
+  if (look.tinted())
+    for (std::int32_t i = 0; i < 256; ++i)
+      table[i] = material_of(tint_at(look, i), specular, look.metallic, lamp);
   return table;
 }
 

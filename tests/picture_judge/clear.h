@@ -103,7 +103,8 @@ class ClearWalk {
     const Vec before = passed();
     way = std::min<Int>(way + d, power_of_two(27) - 1);
     dim(w);
-    const Vec diffuse = mixed(mixed(look.solid.diffuse, look.liquid.diffuse, l), look.obstacle.diffuse, w);
+    const Vec solid = look.solid_of(bytes.read(bytes.heat, q)).diffuse;
+    const Vec diffuse = mixed(mixed(solid, look.liquid.diffuse, l), look.obstacle.diffuse, w);
     const Int beside = light.open[0] + light.open[1] + light.open[4] + light.open[5];
     const Int above = ((2 * light.open[2] + beside) * 43) >> 9;
     const Int below = ((2 * light.open[3] + beside) * 43) >> 9;

@@ -17,7 +17,9 @@ class MatterBytes {
           const bool air = levels.at(x, y, z) == -32640;
           const Int S = field.solid[i], L = field.liquid[i], O = field.obstacle[i];
           liquid.push_back(air || S + L == 0 ? 0 : 255 * L / (S + L));
-          heat.push_back(air ? 0 : heat_byte(look, L, field.heat[i]));
+          heat.push_back(air                        ? 0
+                         : look.tones.tints.empty() ? heat_byte(look, L, field.heat[i])
+                                                    : tone_byte(S, field.heat[i]));
           obstacle.push_back(air || S + L + O == 0 ? 0 : 255 * O / (S + L + O));
         }
   }
@@ -76,7 +78,7 @@ inline Surface surface_at(const Look& look, const LightGrid& grid, const MatterB
   Surface surface;
   surface.n = n;
   surface.w = w;
-  Material material = mixed(look.solid, look.liquid, l);
+  Material material = mixed(look.solid_of(heat), look.liquid, l);
   if (look.glows) {
     material.diffuse = material.diffuse + ((look.glow_crust[heat] * l) >> 12);
     surface.emission = (((look.glow_light[heat] * l) >> 12) * (4096 - w)) >> 12;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "columns.h"
+#include "tones.h"
 
 struct Field {
   Ints intensity, solid, liquid, heat, obstacle;  // one number for each cell, filtered
@@ -76,6 +77,7 @@ inline Int mixed_intensity(Int F, Int G, Int s, Int l, Int o) {
 
 inline Field make_field(const Input& in, const std::vector<Column>& columns) {
   const State state{in};
+  const Tones tones(in);
   Field raw;
   for (Ints* channel : {&raw.intensity, &raw.solid, &raw.liquid, &raw.heat, &raw.obstacle})
     channel->assign(in.mask.size(), 0);
@@ -88,6 +90,7 @@ inline Field make_field(const Input& in, const std::vector<Column>& columns) {
         if (state.solid(x, y, z)) raw.solid[i] = matter;
         if (state.liquid(x, y, z)) raw.liquid[i] = matter;
         if (in.glows) raw.heat[i] = (raw.liquid[i] * in.heat[i]) >> 16;
+        if (!tones.tints.empty()) raw.heat[i] = (raw.solid[i] * tones.tone_of[in.material[i]] + 255) >> 8;
         if (state.inert(x, y, z) && y >= c.bed) raw.obstacle[i] = 65280;
         raw.intensity[i] = raw.obstacle[i] != 0 ? 65280 : raw.solid[i] + raw.liquid[i];
       }

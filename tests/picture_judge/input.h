@@ -23,6 +23,7 @@ struct Input {
   double shininess = 1, specular = 0, metallic = 0;
   bool glows = false;
   double glow_cold = 0, glow_hot = 0;
+  std::vector<ColorNumbers> materials;
   ColorNumbers clear;
   double frost = 0;
   double light_x = 0, light_y = 0, light_z = 0, ambient = 0;
@@ -33,6 +34,7 @@ struct Input {
   bool has_terrain = false, textured = false;
   std::string setting;
   Ints mask, amount, heat;      // index (z ny + y) nx + x
+  Ints material;                // the same; empty without colours of materials
   std::vector<double> terrain;  // index z nx + x
 
   Int cell(Int x, Int y, Int z) const { return (z * ny + y) * nx + x; }
@@ -92,6 +94,8 @@ inline void read_line_of(Input& in, const std::string& line) {
   } else if (name == "clear") {
     in.clear = color_from(words);
     in.frost = number_from(words);
+  } else if (name == "material") {
+    in.materials.push_back(color_from(words));
   } else if (name == "light") {
     in.light_x = number_from(words);
     in.light_y = number_from(words);
@@ -134,7 +138,7 @@ inline Input read_input(const std::string& path) {
   }
   const std::size_t cells = static_cast<std::size_t>(in.nx * in.ny * in.nz);
   const std::size_t columns = static_cast<std::size_t>(in.nx * in.nz);
-  const std::size_t needed = cells * 5 + (in.has_terrain ? columns * 4 : 0);
+  const std::size_t needed = cells * (in.materials.empty() ? 5 : 6) + (in.has_terrain ? columns * 4 : 0);
   if (all.size() - place != needed) throw std::runtime_error("the data has another length");
   const auto byte = [&all](std::size_t i) { return static_cast<Int>(static_cast<unsigned char>(all[i])); };
   for (std::size_t i = 0; i < cells; ++i) in.mask.push_back(byte(place + i));
@@ -145,6 +149,10 @@ inline Input read_input(const std::string& path) {
   for (std::size_t i = 0; i < cells; ++i)
     in.heat.push_back(byte(place + 2 * i) + 256 * byte(place + 2 * i + 1));
   place += 2 * cells;
+  if (!in.materials.empty()) {
+    for (std::size_t i = 0; i < cells; ++i) in.material.push_back(byte(place + i));
+    place += cells;
+  }
   if (in.has_terrain) {
     for (std::size_t i = 0; i < columns; ++i) {
       float height = 0;

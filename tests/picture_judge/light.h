@@ -11,6 +11,8 @@ inline Int heat_byte(const Look& look, Int L, Int H) {
   const Int t = L == 0 || !look.glows ? 0 : 256 * std::min<Int>(256 * H / L, 256);
   return clamped(floor_divided(255 * (t - look.cold), std::max<Int>(look.hot - look.cold, 1)), 0, 255);
 }
+// Returns the byte of a cell that has the tone of its solid instead.
+inline Int tone_byte(Int S, Int H) { return S == 0 ? 0 : std::min<Int>(256 * H / S, 255); }
 inline Int passed(Int a, Int loss) { return (a * (256 - loss) + 128) >> 8; }
 inline Int whole(Int b) { return b + (b >> 7); }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clear_look.h"
+#include "tones.h"
 
 // Light counts in 4096ths.
 inline Int times(Int a, Int b) { return rounded(a * b, 12); }
@@ -34,7 +35,7 @@ inline Vec light_color(const ColorNumbers& c) {
 
 class Look {
  public:
-  explicit Look(const Input& in) : glows(in.glows), clear(in) {
+  explicit Look(const Input& in) : glows(in.glows), clear(in), tones(in) {
     ground = light_color(in.ground);
     background = light_color(in.background);
     const Int specular = scaled_number(in.specular, 12), metallic = scaled_number(in.metallic, 12);
@@ -59,6 +60,8 @@ class Look {
     blur = clamped(floor_divided(24576, shininess + 6), 205, 4096);
     for (Int i = 0; i <= 2048; ++i) surroundings.push_back(surroundings_at(4 * (i - 1024)));
     for (Int i = 0; i < 256; ++i) add_glow(i);
+    if (!tones.tints.empty())
+      for (Int i = 0; i < 256; ++i) add_solid(i, times(specular, 2867), metallic);
 
     lamp_low = 3523 - times(1229, blur);  // section 6: the mirrored lights
     lamp_high = 3809 + times(287, blur);
@@ -80,13 +83,18 @@ class Look {
     return table[i] + (((table[i + 1] - table[i]) * (c & 15)) >> 4);
   }
 
+  // Returns what the solid is made of, by the byte of heat.
+  const Material& solid_of(Int heat) const { return solids.empty() ? solid : solids[heat]; }
+
   bool glows;
   ClearLook clear;
+  Tones tones;
   Vec ground, background, to_light, to_strip, lamp, from_below, from_above;
   Int cold = 0, hot = 0, blur = 0, lamp_low = 0, lamp_high = 0, strip_low = 0;
   Material solid, liquid, obstacle;
   Ints highlights, obstacle_highlights;
   std::vector<Vec> surroundings, glow_light, glow_crust;
+  std::vector<Material> solids;  // by tone
 
  private:
   Material material(Vec color, Int specular, Int metallic) const {
@@ -120,6 +128,14 @@ class Look {
     const Vec seen = mixed(below, sky, smooth(-246 - edge, 246 + edge, h));
     const auto kept = [](Int c, Int m) { return clamped((c * m + 2048) >> 12, 0, m); };
     return {2 * kept(seen.x, 2047), 2 * kept(seen.y, 2047), 4 * kept(seen.z, 1023)};
+  }
+  void add_solid(Int i, Int specular, Int metallic) {
+    const Int n = static_cast<Int>(tones.tints.size());
+    const auto tone_of = [n](Int j) { return 255 * j / (n - 1); };
+    Int j = n - 2;
+    while (tone_of(j) > i) --j;
+    const Int share = smooth(1024, 3072, 4096 * (i - tone_of(j)) / (tone_of(j + 1) - tone_of(j)));
+    solids.push_back(material(mixed(tones.tints[j], tones.tints[j + 1], share), specular, metallic));
   }
   void add_glow(Int i) {
     const auto p = [](Int a, Int b) { return rounded(a * b, 16); };

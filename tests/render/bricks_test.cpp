@@ -17,6 +17,7 @@
 #include "render/reference/levels.h"
 #include "render/reference/matter_cells.h"
 #include "tests/kernel/worlds.h"
+#include "tests/render/of_materials.h"
 
 namespace voxmelt {
 namespace {
@@ -152,6 +153,10 @@ TEST(Bricks, ToldAndUntold) {
       look.glow = field_look.glow;
       look.glow_cold = random.below(30000);
       look.glow_hot = random.between(20000, 65536);
+      test::any_materials(field_look, random);
+      for (const render::Tint& tint : render::tints_of(field_look))
+        look.tints[static_cast<std::size_t>(look.tint_count++)] = tint;
+      test::of_any_materials(volume, field_look, random);
       render::DensityField field;
       FieldBricks bricks;
       cpu::Workers workers(static_cast<int>(1 + seed % 3));

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/kernel/worlds.h"
+#include "tests/render/of_materials.h"
 
 namespace voxmelt::test {
 namespace {
@@ -230,6 +231,8 @@ HostilePicture hostile_picture(std::uint64_t seed, int most) {
   picture.light = hostile_light(random);
   picture.camera = hostile_camera(random, picture.volume);
   picture.setting = random.any({render::Setting::fast, render::Setting::normal, render::Setting::best});
+  if (random.one_in(2)) any_materials(picture.look, random);
+  of_any_materials(picture.volume, picture.look, random);
   return picture;
 }
 
@@ -268,6 +271,7 @@ HostilePicture hostile_clear_picture(std::uint64_t seed, int most) {
   picture.camera.height = random.between(20, 48);
   if (!random.one_in(4))
     picture.camera.target = {0.5 * volume.grid.x, 0.5 * volume.grid.y, 0.5 * volume.grid.z};
+  of_any_materials(volume, picture.look, random);
   return picture;
 }
 
@@ -293,6 +297,7 @@ std::string description(const HostilePicture& picture) {
   text << "grid " << grid.x << ' ' << grid.y << ' ' << grid.z << ", smooth " << picture.look.smooth << ' '
        << picture.look.smooth_solid << (picture.look.glow ? ", glow" : "")
        << (picture.look.clear != scene::Vec3{} ? ", clear" : "")
+       << (picture.volume.material.empty() ? "" : ", materials")
        << (picture.terrain.height.empty() ? ""
            : picture.terrain.textured     ? ", textured terrain"
                                           : ", terrain")

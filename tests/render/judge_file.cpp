@@ -29,22 +29,30 @@ std::string text_of(std::initializer_list<double> numbers) {
 }
 std::string text_of(const scene::Vec3& v) { return text_of({v[0], v[1], v[2]}); }
 
+std::string materials_of(const scene::Look& look) {
+  std::string text;
+  for (const scene::Vec3& color : look.materials) text += "material" + text_of(color);
+  return text;
+}
+
 void put16(std::string& bytes, std::uint16_t value) {
   bytes += static_cast<char>(value & 255);
   bytes += static_cast<char>(value >> 8);
 }
 
-std::string data_of(const state::Volume& volume, const scene::Terrain& terrain) {
-  std::string masks, amounts, heats;
+std::string data_of(const state::Volume& volume, std::size_t colors, const scene::Terrain& terrain) {
+  std::string masks, amounts, heats, materials;
   worlds::for_each(worlds::whole(volume.grid), [&](int x, int y, int z) {
     masks += static_cast<char>((volume.solid.test(x, y, z) ? 1 : 0) | (volume.liquid.test(x, y, z) ? 2 : 0) |
                                (volume.inert.test(x, y, z) ? 4 : 0));
     put16(amounts, volume.amount[volume.at(x, y, z)]);
     put16(heats, volume.heat[volume.at(x, y, z)]);
+    if (colors > 0)
+      materials += static_cast<char>(volume.material.empty() ? 0 : volume.material[volume.at(x, y, z)]);
   });
   std::string heights(terrain.height.size() * sizeof(float), '\0');
   if (!heights.empty()) std::memcpy(heights.data(), terrain.height.data(), heights.size());
-  return masks + amounts + heats + heights;
+  return masks + amounts + heats + materials + heights;
 }
 
 std::vector<std::uint8_t> judged(const char* option, const std::filesystem::path& file) {
@@ -85,14 +93,14 @@ void write_judge_file(const std::filesystem::path& file, const state::Volume& vo
       << (look.clear != scene::Vec3{}
               ? "clear" + text_of({look.clear[0], look.clear[1], look.clear[2], look.frost})
               : "")
-      << "light" << text_of({light.direction[0], light.direction[1], light.direction[2], light.ambient})
-      << "camera"
+      << materials_of(look) << "light"
+      << text_of({light.direction[0], light.direction[1], light.direction[2], light.ambient}) << "camera"
       << text_of({camera.target[0], camera.target[1], camera.target[2], camera.azimuth, camera.elevation,
                   camera.distance, camera.field_of_view, 1.0 * camera.width, 1.0 * camera.height})
       << (camera.orthographic ? "orthographic\n" : "")  //
       << "terrain" << text_of({given ? 1.0 : 0.0, terrain.textured ? 1.0 : 0.0}) << "setting "
       << kSettings[static_cast<std::size_t>(setting)] << "\ndata\n"
-      << data_of(volume, given ? terrain : scene::Terrain{});
+      << data_of(volume, look.materials.size(), given ? terrain : scene::Terrain{});
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 

@@ -19,6 +19,7 @@
 #include "render/packet/plain_packet.h"
 #include "render/packet/scene_in_integers.h"
 #include "render/reference/reference_picture.h"
+#include "tests/render/of_materials.h"
 #include "tests/render/shapes.h"
 
 namespace voxmelt {
@@ -168,7 +169,10 @@ TEST(PictureOfPackets, EqualsTheReferenceInHostileScenes) {
   std::array<int, 3> halved{};  // pictures by their halvings of the step
   for (std::uint32_t seed = 0; seed < 160; ++seed) {
     Random random(seed);
-    const Hostile hostile = random_scene(random);
+    Hostile hostile = random_scene(random);
+    worlds::Random materials(seed);
+    test::any_materials(hostile.look, materials);
+    test::of_any_materials(hostile.volume, hostile.look, materials);
     render::DensityField field;
     field.update(hostile.volume, hostile.look, hostile.terrain);
     const render::PictureScene scene(field, hostile.look, hostile.light, hostile.terrain);

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <set>
 
 namespace voxmelt::test {
 namespace {
@@ -26,6 +30,42 @@ Cells mixed(const Cells& solid, const Cells& liquid, const Cells& filtered_solid
     result[i] = static_cast<std::uint16_t>((solid[i] * (256 - weight) + liquid[i] * weight + 128) >> 8);
   }
   return result;
+}
+
+// Finds the place of each colour by counting those that are nearer to the first one.
+std::vector<int> plain_tones(const scene::Look& look) {
+  using Color = std::vector<long>;
+  std::vector<Color> colors;
+  for (const scene::Vec3& color : look.materials)
+    colors.push_back(
+        {std::lround(color[0] * 4096), std::lround(color[1] * 4096), std::lround(color[2] * 4096)});
+  const auto key = [&](const Color& a) {
+    const Color& f = colors[0];
+    return Color{2 * std::abs(a[0] - f[0]) + 7 * std::abs(a[1] - f[1]) + std::abs(a[2] - f[2]), a[0], a[1],
+                 a[2]};
+  };
+  std::set<Color> keys;
+  for (const Color& color : colors) keys.insert(key(color));
+  std::vector<int> tones;
+  const int count = static_cast<int>(keys.size()), middle = (count - 1) / 2;
+  for (const Color& color : colors) {
+    const auto rank = static_cast<int>(std::distance(keys.begin(), keys.find(key(color))));
+    const int place = rank % 2 == 1 ? middle + (rank + 1) / 2 : middle - rank / 2;
+    tones.push_back(count < 2 ? 0 : 255 * place / (count - 1));
+  }
+  return tones;
+}
+
+void put_tones(const state::Volume& volume, const std::vector<int>& tones, PlainCells& cells) {
+  const state::Grid& grid = volume.grid;
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x) {
+        const std::size_t i = grid.index(x, y, z);
+        const std::size_t material = volume.material.empty() ? 0 : volume.material[volume.at(x, y, z)];
+        const int tone = tones.empty() || cells.solid[i] == 0 ? 0 : tones[material];
+        cells.heat[i] = static_cast<std::uint16_t>((cells.solid[i] * tone + 255) / 256);
+      }
 }
 
 }  // namespace
@@ -65,8 +105,8 @@ Cells plain_low_pass(const state::Grid& grid, int passes, const Cells& from) {
 void expect_plain(const render::DensityField& field, const state::Volume& volume, const scene::Look& look,
                   const scene::Terrain& terrain) {
   PlainCells cells = plain_cells(volume, look.smooth, terrain);
-  if (!look.glow) std::fill(cells.heat.begin(), cells.heat.end(), 0);
   const state::Grid& grid = volume.grid;
+  if (!look.glow) put_tones(volume, plain_tones(look), cells);
   ASSERT_EQ(field.grid(), grid);
   EXPECT_TRUE(same(field.cells().intensity, cells.intensity));
   EXPECT_TRUE(same(field.cells().solid, cells.solid));

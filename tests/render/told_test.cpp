@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/render/of_materials.h"
 #include "tests/render/plain_field.h"
 #include "tests/render/shapes.h"
 
@@ -23,7 +24,8 @@ scene::Look any_look(Random& random) {
   scene::Look look;
   look.smooth = random.any({0, 1, 3, 3, 6});
   look.smooth_solid = random.any({0, 1, 1, 4});
-  look.glow = random.one_in(2);
+  look.glow = random.one_in(3);
+  test::any_materials(look, random);
   return look;
 }
 
@@ -82,7 +84,8 @@ TEST(Told, AfterStepsOfEveryImplementation) {
         step::Tuning tuning;
         tuning.tile_shift = random.any({0, 3, 5});
         run::Simulation simulation(parameters, start, implementation, tuning);
-        const scene::Look look = any_look(random);
+        scene::Look look = any_look(random);
+        if (!start.material.empty()) test::sixteen_materials(look, random);
         const scene::Terrain terrain = any_terrain(random, grid);
         DensityField field;
         for (int round = 0; round < 4; ++round) {
@@ -128,11 +131,15 @@ TEST(Told, AfterEditsThatAreTold) {
   for (const state::Grid& grid : {state::Grid{75, 33, 30}, {40, 20, 41}}) {
     state::Volume volume = slope(grid, random);
     volume.changed.follow(grid);
+    volume.material = state::Field<std::uint8_t>(grid);
     scene::Look look = any_look(random);
     scene::Terrain terrain = any_terrain(random, grid);
     DensityField field;
     for (int round = 0; round < 60; ++round) {
-      if (round % 11 == 10) look = any_look(random);
+      if (round % 11 == 10) {
+        look = any_look(random);
+        volume.material = state::Field<std::uint8_t>(grid);
+      }
       if (round % 13 == 12) terrain = any_terrain(random, grid);
       const bool same_use = round > 0 && round % 11 != 10 && round % 13 != 12;
       const Shown before(field);
@@ -152,6 +159,9 @@ TEST(Told, AfterEditsThatAreTold) {
           volume.amount[volume.at(x, y, z)] = static_cast<std::uint16_t>(random.between(1, 4000));
         else
           edit(volume, x, y, z, random.below(4), random);
+        if (!look.materials.empty())
+          volume.material[volume.at(x, y, z)] =
+              static_cast<std::uint8_t>(random.below(static_cast<int>(look.materials.size())));
         volume.changed.mark(ChangedBricks::kMatter, std::uint64_t{1} << x / 64, y / 8, z / 8);
       }
     }

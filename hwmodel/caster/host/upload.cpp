@@ -49,6 +49,7 @@ LookRegisters look_of(const render::PictureData& data) {
   registers.glow = paint.glow;
   registers.obstacles = data.field.obstacles;
   registers.clear = paint.clear;
+  registers.tinted = paint.tinted;
   registers.losses = paint.losses;
   registers.frost = paint.frost;
   registers.lamp_low = paint.lamp_low;
@@ -59,6 +60,7 @@ LookRegisters look_of(const render::PictureData& data) {
   registers.surroundings = paint.surroundings;
   registers.glow_light = paint.glow_colors.light;
   registers.glow_crust = paint.glow_colors.crust;
+  for (std::size_t i = 0; i < registers.tints.size(); ++i) registers.tints[i] = material_of(paint.tints[i]);
   registers.tone.assign(data.tone->begin(), data.tone->end());
   registers.bytes.assign(data.bytes->begin(), data.bytes->end());
   return registers;

@@ -46,13 +46,15 @@ struct LookRegisters {
   Rgb lamp{}, from_below{}, from_above{}, background{};
   Material solid, liquid, obstacle;
   bool glow = false, obstacles = false;
-  bool clear = false;  // docs/picture/translucent.md
+  bool clear = false;   // docs/picture/translucent.md
+  bool tinted = false;  // solids have the material of their tone
   Rgb losses{};
   std::int32_t frost = 0;
   std::int32_t lamp_low = 0, lamp_high = 0, strip_low = 0;
   std::array<std::uint16_t, 1026> highlight{}, dull_highlight{};
   std::array<std::uint32_t, 2049> surroundings{};
   std::array<Rgb, 256> glow_light{}, glow_crust{};
+  std::array<Material, 256> tints{};
   std::vector<std::uint16_t> tone;  // by light 0 .. 12287
   std::vector<std::uint8_t> bytes;  // by light 0 .. 4096
 };

@@ -87,6 +87,58 @@ TEST(Tables, GlowNeverDarkensWithHeat) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_GE(table.light[i][c], table.light[i - 1][c]) << i;
 }
 
+// Black is tone 0, red 127 and white 255. A quarter of the way to the next one nothing changes: that is up to
+// tone 31, where 4096 x 31 / 127 is 999. Tone 63 is 4096 x 63 / 127 = 2031 of the way. The share of red there
+// is t = 2 (2031 - 1024) = 2014, and t^2 (12288 - 2 t) / 2^24 is 1997.
+TEST(Tables, SolidsByTone) {
+  Look look;
+  EXPECT_FALSE(look.tinted());
+  look.tints[1] = {4096, 0, 0};
+  look.tints[2] = {4096, 4096, 4096};
+  look.tint_count = 3;
+  EXPECT_TRUE(look.tinted());
+  for (const std::int32_t tone : {0, 31}) EXPECT_EQ(tint_at(look, tone), (Color{})) << tone;
+  EXPECT_EQ(tint_at(look, 63), (Color{1997, 0, 0}));
+  for (const std::int32_t tone : {96, 127, 158}) EXPECT_EQ(tint_at(look, tone), look.tints[1]) << tone;
+  for (const std::int32_t tone : {224, 255}) EXPECT_EQ(tint_at(look, tone), look.tints[2]) << tone;
+
+  look.metallic = 4096;  // a metal mirrors its colour, and scatters 614 / 4096 of it
+  const Tints table = tint_table(look, 2000, {4096, 4096, 4096});
+  EXPECT_EQ(table[127].diffuse, (Color{614, 0, 0}));
+  EXPECT_EQ(table[127].mirror, (Color{4096, 0, 0}));
+  EXPECT_EQ(table[127].highlight, (Color{2000, 0, 0}));
+  EXPECT_EQ(table[255].highlight, (Color{2000, 2000, 2000}));
+  EXPECT_EQ(table[0].gloss, table[255].gloss);
+}
+
+// The mean tone of 1000 with 250 is 250 x 256 / 1000 = 64. Rounding alone may leave more tone than solid.
+TEST(Matter, ToneIsThatOfTheSolid) {
+  Look look;
+  EXPECT_EQ(matter_of(1000, 0, 250, 0, look).heat, 0);
+  look.tint_count = 2;
+  EXPECT_EQ(matter_of(1000, 0, 250, 0, look).heat, 64);
+  EXPECT_EQ(matter_of(1000, 5000, 250, 0, look).heat, 64);
+  EXPECT_EQ(matter_of(1, 0, 3, 0, look).heat, 255);
+  EXPECT_EQ(matter_of(0, 1000, 3, 0, look).heat, 0);
+}
+
+// Half liquid, which is l = 16 x 128 + 8 = 2056, white becomes 4096 - 4096 x 2056 / 4096.
+TEST(Shade, SolidsHaveTheMaterialOfTheirTone) {
+  Look look;
+  look.solid = {1, 2, 3};
+  look.tints[1] = {4096, 4096, 4096};
+  look.tint_count = 2;
+  const Paint paint = paint_of(look, {{0, 1, 0}, 0});
+  EXPECT_EQ(substance_of(paint, {0, 0, 0}, 0).material.diffuse, (Color{}));
+  EXPECT_EQ(substance_of(paint, {0, 255, 0}, 0).material.diffuse, (Color{4096, 4096, 4096}));
+  EXPECT_EQ(substance_of(paint, {128, 255, 0}, 0).material.diffuse, (Color{2040, 2040, 2040}));
+  EXPECT_EQ(substance_of(paint, {0, 255, 0}, 0).emission, (Color{}));
+  const Light light;
+  const Color dark = inner_color(paint, light, {0, 0, 0}), bright = inner_color(paint, light, {0, 255, 0});
+  EXPECT_EQ(dark, (Color{}));
+  EXPECT_EQ(bright, inner_light(paint.lamp, paint.from_below, paint.from_above, light));
+}
+
 TEST(Tone, PressedLightIsThatOfDouble) {
   const Tone table = tone_table();
   for (std::int32_t i = 0; i <= kBrightest; ++i) {
