@@ -91,6 +91,7 @@ json contents_json(const std::vector<PartList>& parts) {
     result.push_back({{"lanes", lanes},
                       {"irradiance_bits", one.content->irradiance_bits},
                       {"lit_columns", one.content->lit_columns},
+                      {"falls", one.content->falls},
                       {"coded_bits", one.content->coded_bits},
                       {"coded_columns", one.content->coded_columns}});
   }

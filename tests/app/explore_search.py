@@ -36,26 +36,42 @@ class Tiles:
                    for k in range(tiles) for j in range(tiles) if set(self.read[k]) & set(self.owned[j]))
 
 
+def content_of(report, parts):
+    return next(c for c in report["contents"] if c["lanes"] == parts["lanes"])
+
+
+def may_fall(parts):
+    """Tells if pieces may fall: then the software looks at the state before each step."""
+    return any(s["name"] == "fall" for s in parts["stages"])
+
+
+def working(report, parts):
+    """The stages that work in a step. Whether pieces fall is as in the first one."""
+    falls = content_of(report, parts)["falls"]
+    return [s for s in parts["stages"] if falls or s["name"] != "fall"]
+
+
 def trains(report, parts, hw, tiles):
     """The (tile, steps) of all streams of each train, and its steps."""
     done, n, every, high = 0, parts["tokens"], report["visibility_every"], report["grid"][1]
     interval = 2 if hw["fifo_depth"] == 1 else 1
-    follow = hw["overlap"] and all(s["lag"] < n for s in parts["stages"])
+    stages, alone = working(report, parts), may_fall(parts)
+    follow = hw["overlap"] and all(s["lag"] < n for s in stages)
     back = tiles.shortest_return(n, high) - (high - 1 if hw["coded"] else 0)
     found = []
     while done < report["steps"]:
         found.append([])
         while True:
             step = report["first_step"] + done
-            k = min(hw["cascade"], report["steps"] - done, every - step % every if every else inf)
+            k = min(1 if alone else hw["cascade"], report["steps"] - done, every - step % every if every else inf)
             for tile in range(len(tiles.read)):
                 if tile and not follow:
                     found.append([])
                 found[-1].append((tile, k))
             done += k
-            lags = sum(s["lag"] for s in parts["stages"])
+            lags = sum(s["lag"] for s in stages)
             overlaps = follow and interval * back > interval * k * lags + hw["cascade"] * len(parts["stages"]) + 1
-            if done == report["steps"] or not overlaps or (every and (report["first_step"] + done) % every == 0):
+            if done == report["steps"] or alone or not overlaps or (every and (report["first_step"] + done) % every == 0):
                 break
     return found
 
@@ -85,8 +101,17 @@ def distances(report, tiles, columns, slot):
     return apart - copy, apart + copy
 
 
+def add_feed(fetched, first, used, delay):
+    """A feed fetches as much as is used, less what it fetches at the begin."""
+    first.append(min(sum(used), 128))
+    left = sum(used) - first[-1]
+    for at, bursts in enumerate(used):
+        fetched[at + delay] += min(left, bursts)
+        left -= min(left, bursts)
+
+
 def feed_bursts(parts, tiles, content, streams, deep, interval, high):
-    """Bursts that feeds fetch in the time of each column, and of each feed those that it fetches at the begin."""
+    """Bursts that feeds of irradiance fetch in the time of each column, and of each those that it fetches at the begin."""
     lit, n = content["lit_columns"], parts["tokens"]
     waits = [1 + (interval * s["lag"] if s["lag"] < n else interval * (n - 1) + s["lag"] - n + 1) for s in parts["stages"]]
     before = 1 + sum(waits[:[s["name"] for s in parts["stages"]].index("exchange")])
@@ -95,17 +120,12 @@ def feed_bursts(parts, tiles, content, streams, deep, interval, high):
                for z in range(deep) for block in tiles.read[tile]]
     fetched, first = [0] * (len(columns) + delays[-1] + 1), []
     for t, delay in enumerate(delays):
-        used = [lit[at] / 512 if t < steps else 0 for at, steps in columns]
-        first.append(min(sum(used), 128))
-        left = sum(used) - first[-1]
-        for at, bursts in enumerate(used):
-            fetched[at + delay] += min(left, bursts)
-            left -= min(left, bursts)
+        add_feed(fetched, first, [lit[at] / 512 if t < steps else 0 for at, steps in columns], delay)
     return fetched, first
 
 
 def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
-    """The bus serves column after column, the pipeline takes each when it has come."""
+    """The bus serves column after column, the pipeline takes each when it has come. Irradiance is fed, and what falls."""
     d, (_, high, deep), tiled = DDR4, report["grid"], len(tiles.read) > 1
     ratio = hw["clock_mhz"] / d["mhz"]
     run = 1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"]
@@ -118,7 +138,7 @@ def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
             puts.append(columns[-1] if block in tiles.owned[tile] else 0)
     taken, behind = interval * high, floor(lag / (interval * high) + .5)
     aparts = distances(report, tiles, lag / taken, slot) if tiled or hw["coded"] else 2 * (lag / taken * plain,)
-    state = sum(columns) * 512 / (sum(columns) * 512 + fed)
+    state = sum(columns) * 512 / (sum(columns) * 512 + sum(fed))
     of_writes, of_reads = (state * sum(meeting(apart + more) for apart in aparts) / 2 + (1 - state) / d["banks"]
                            for more in (d["batch"], 0))
     turn = (d["rtw"] + d["wtr_s"] + d["cl"]
@@ -126,7 +146,9 @@ def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
             + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * of_reads)
     read, write = ratio * d["beats"] / run, ratio * (d["beats"] + turn / d["batch"]) / run
     latency = ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"]) * (1 + hw["coded"])
-    feeds, first = feed_bursts(parts, tiles, content, streams, deep, interval, high) if fed else ([], [])
+    feeds, first = feed_bursts(parts, tiles, content, streams, deep, interval, high) if fed[0] else ([0] * len(columns), [])
+    if fed[1]:
+        add_feed(feeds, first, [high * parts["lanes"] / 512] * len(columns), 0)
 
     def fill(bursts):
         """Feeds fill their buffers side by side, each by so many."""
@@ -163,12 +185,12 @@ def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
 def times(report, parts, hw):
     """Cycles while the memory always answers, and on it. Trains that are alike take the same time."""
     tiles, known, sums = Tiles(report, parts, hw), {}, [0, 0]
-    n, stages = parts["tokens"], parts["stages"]
+    n, stages = parts["tokens"], working(report, parts)
     interval = 2 if hw["fifo_depth"] == 1 else 1
     for streams in trains(report, parts, hw, tiles):
         if tuple(streams) not in known:
             wait = sum(interval * s["lag"] if s["lag"] < n else interval * (n - 1) + s["lag"] - n + 1 for s in stages)
-            cycles = interval * (len(streams) * n - 1) + streams[0][1] * wait + hw["cascade"] * len(stages) + 2
+            cycles = interval * (len(streams) * n - 1) + streams[0][1] * wait + hw["cascade"] * len(parts["stages"]) + 2
             slow = cycles if report["memory"] == "none" else on_memory(report, parts, hw, tiles, streams, cycles)
             known[tuple(streams)] = cycles, slow
         sums = [a + b for a, b in zip(sums, known[tuple(streams)])]
@@ -178,15 +200,16 @@ def times(report, parts, hw):
 def on_memory(report, parts, hw, tiles, streams, cycles):
     """Of a train that takes so many cycles without waiting."""
     d, (_, high, deep) = DDR4, report["grid"]
-    content = next(c for c in report["contents"] if c["lanes"] == parts["lanes"])
+    content = content_of(report, parts)
     interval, tiled = 2 if hw["fifo_depth"] == 1 else 1, len(tiles.read) > 1
-    window, fed = interval * len(streams) * parts["tokens"], 0
+    window, lit = interval * len(streams) * parts["tokens"], 0
     for tile, steps in streams if parts["fed"] else ():
         of_tile = sum(sum(content["lit_columns"][block::tiles.blocks]) for block in tiles.read[tile])
-        fed += steps * (of_tile if tiled else content["irradiance_bits"])
-    lag = cycles - window
-    if hw["coded"] or fed:
-        return by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval)
+        lit += steps * (of_tile if tiled else content["irradiance_bits"])
+    fallen = len(streams) * parts["tokens"] * parts["lanes"] if content["falls"] else 0  # a bit for each cell
+    lag, fed = cycles - window, lit + fallen
+    if hw["coded"] or lit:
+        return by_columns(report, parts, content, hw, tiles, streams, (lit, fallen), lag, interval)
     column = high * parts["lanes"] * parts["cell_bits"]
     slot = ceil(column / 512)
     column, alone, ratio = slot * 512 if tiled else column, min(lag, window), hw["clock_mhz"] / d["mhz"]
@@ -209,7 +232,7 @@ def pieces(width, of):
 def fixed_of(report, parts, hw):
     """Logic, products, registers and channels: (lut, ff, dsp, lutram, ports)."""
     f, p, t = report["family"], parts["lanes"], hw["cascade"]
-    ports = 2 + (t if parts["fed"] else 0)
+    ports = 2 + (t if parts["fed"] else 0) + (1 if may_fall(parts) else 0)
     lut, ff, dsp, lutram = f["base"]["lut"] + ports * f["port"]["lut"], f["base"]["ff"] + ports * f["port"]["ff"], 0, 0
     widths = [(parts["cell_bits"], 1)]
     for stage in parts["stages"]:
@@ -223,7 +246,8 @@ def fixed_of(report, parts, hw):
             dsp += t * p * min(pieces(w, a) * pieces(v, b), pieces(w, b) * pieces(v, a))
         ff += t * sum(b["words"] * b["lanes"] * b["bits"] for b in stage["buffers"] if b["words"] <= f["register_words"])
         widths.append((stage["output_bits"], t))
-    for bits, times_ in widths + ([(16, t)] if parts["fed"] else []):
+    feeds = ([(16, t)] if parts["fed"] else []) + ([(1, 1)] if may_fall(parts) else [])
+    for bits, times_ in widths + feeds:
         lut, ff = lut + times_ * f["channel"]["lut"], ff + times_ * f["channel"]["ff"]
         if hw["fifo_depth"] <= f["register_words"]:
             ff += times_ * hw["fifo_depth"] * bits * p

@@ -82,6 +82,17 @@ class Explore(unittest.TestCase):
                 self.compare(report, rows, 97)
                 self.assertIn(report["answer"], said)
 
+    def test_an_exhaustive_search_agrees_where_pieces_fall(self):
+        """A cube that hangs in the air falls in the first step, and so in all. One that stands does not."""
+        for at, lit in (("[6, 20, 6]", True), ("[6, 20, 6]", False), ("[6, 4, 6]", True)):
+            with self.subTest(at=at, lit=lit):
+                text = self.scene.read_text().replace("at = [6, 4, 6]", f"at = {at}").replace("[flow]", "[pieces]\n[flow]")
+                scene = write(self.folder, text if lit else text.replace("power = 30", "power = 0"), "falls.toml")
+                report, rows, _ = self.explore(scene, "--device", "zu7ev", "--points", 0, "--set", "hw.fifo_depth=2",
+                                               "--set", "hw.clock_mhz=300", "--set", "hw.lanes=4", "--steps", 4)
+                self.assertEqual({c["falls"] for c in report["contents"]}, {at == "[6, 20, 6]"})
+                self.compare(report, rows, 97)
+
     def test_the_front_is_what_nothing_beats(self):
         report, rows, _ = self.explore(self.scene, "--device", "ecp5-85f", "--memory", "none", "--points", 0,
                                        "--set", "hw.lanes=4")
