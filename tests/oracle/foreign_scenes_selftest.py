@@ -36,6 +36,12 @@ file.write_text(json.dumps({**json.loads(file.read_text()), "seed": 5}))
     "a step less": ("oracle", """
 words[words.index("--steps") + 1] = str(int(option("--steps")) - 1)
 """, "digests"),
+    "all solids of one material": ("oracle", """
+file = pathlib.Path(words[0]) / "material.npy"
+if file.exists():
+    data = file.read_bytes()
+    file.write_bytes(data[:128] + bytes(len(data) - 128))
+""", "digests"),
     "a term of a ledger": ("oracle", r"""
 finish(change=lambda text: re.sub(r"(ledger heat .*) (\S+) ", lambda m: f"{m[1]} {int(m[2]) + 1} ", text))
 """, "ledger of heat"),
