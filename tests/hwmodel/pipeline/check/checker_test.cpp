@@ -267,6 +267,7 @@ TEST(Checker, TheFailingStageIsNotTheFirst) {
   start.parameters.heat = {};
   start.parameters.heat.enabled = true;
   start.parameters.heat.weight_face = 65535;  // no scene file can say so
+  start.parameters.materials.clear();
   start.parameters.vents = {{{{24, 24, 24}, 0}, 1, 0, 0, 50, 51}};
   start.parameters.drains.clear();
   start.parameters.open_border = false;
