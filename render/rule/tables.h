@@ -94,14 +94,14 @@ VOXMELT_RULE Glow glow_table() {
 using Tints = std::array<Material, 256>;
 
 // Returns the colour of a tone. The colours of the look lie at equal distances. Those between two are mixed,
-// and a quarter of the distance belongs to each alone, so that borders are not wider than the filter needs.
+// and an eighth of the distance belongs to each alone, so that borders are not wider than the filter needs.
 VOXMELT_RULE Color tint_at(const Look& look, std::int32_t tone) {
   const std::int32_t last = look.tint_count - 1;
   std::int32_t next = 1;
   while (next < last && 255 * next / last <= tone) ++next;
   const std::int32_t low = 255 * (next - 1) / last, high = 255 * next / last;
   const std::size_t to = next;
-  const std::int32_t share = smooth_light(kLight / 4, 3 * kLight / 4, kLight * (tone - low) / (high - low));
+  const std::int32_t share = smooth_light(kLight / 8, 7 * kLight / 8, kLight * (tone - low) / (high - low));
   return mixed(look.tints[to - 1], look.tints[to], share);
 }
 

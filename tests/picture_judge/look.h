@@ -134,7 +134,7 @@ class Look {
     const auto tone_of = [n](Int j) { return 255 * j / (n - 1); };
     Int j = n - 2;
     while (tone_of(j) > i) --j;
-    const Int share = smooth(1024, 3072, 4096 * (i - tone_of(j)) / (tone_of(j + 1) - tone_of(j)));
+    const Int share = smooth(512, 3584, 4096 * (i - tone_of(j)) / (tone_of(j + 1) - tone_of(j)));
     solids.push_back(material(mixed(tones.tints[j], tones.tints[j + 1], share), specular, metallic));
   }
   void add_glow(Int i) {

@@ -132,6 +132,8 @@ void edit(state::Volume& volume, const Grid& at, int kind, Random& random) {
                                                 : random.one_in(2) ? 4096
                                                                    : 1 + random.below(6000));
   volume.heat[i] = static_cast<std::uint16_t>(kind == 1 || kind == 2 ? random.below(65536) : 0);
+  if (!volume.material.empty() && random.one_in(2))
+    volume.material[i] = static_cast<std::uint8_t>(random.below(2));
   volume.changed.mark(state::ChangedBricks::kMatter, std::uint64_t{1} << at.x / 64, at.y / 8, at.z / 8);
 }
 

@@ -64,6 +64,7 @@ constexpr std::array kFaults{
     FaultInfo{arriving_glow, "arriving-glow", "arriving", "the light of the glow is missing"},
     FaultInfo{material_liquid, "material-liquid", "material", "the shares of solid and liquid change places"},
     FaultInfo{material_obstacle, "material-obstacle", "material", "the share of an obstacle is missing"},
+    FaultInfo{material_tone, "material-tone", "material", "the solid has one colour, whatever its tone"},
     FaultInfo{mirror_sky, "mirror-sky", "mirror", "the table of surroundings is read one entry too far"},
     FaultInfo{mirror_highlight, "mirror-highlight", "mirror",
               "the table of highlights is read one entry too far"},

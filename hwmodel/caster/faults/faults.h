@@ -68,6 +68,7 @@ enum class Fault : std::uint8_t {
   arriving_glow,
   material_liquid,
   material_obstacle,
+  material_tone,
   mirror_sky,
   mirror_highlight,
   mirror_ray,

@@ -27,6 +27,12 @@ class LightFaults : public Planted {
     if (armed(Fault::material_liquid))
       replace("material", surface.id, surface.mixture.l, 4096 - surface.mixture.l);
     if (armed(Fault::material_obstacle)) replace("material", surface.id, surface.mixture.w, 0);
+    if (armed(Fault::material_tone)) {
+      LookRegisters wrong = look;
+      wrong.tinted = false;
+      replace("material", surface.id, surface.mixture.material.diffuse,
+              mixture_of(wrong, surface.matter).material.diffuse);
+    }
   }
 
   void mirrored(const LookRegisters& look, Surface& surface) {

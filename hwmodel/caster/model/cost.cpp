@@ -201,6 +201,7 @@ class Costs {
     memory("paint", "bends", bends, 21);
     memory("paint", "bands", size(registers_.ground.bands), 13);
     if (registers_.look.glow) memory("arriving", "glow", 2 * 256, 3 * 13);
+    if (registers_.look.tinted) memory("arriving", "solids by tone", 256, 3 * 3 * 13);
     memory("mirror", "highlights", 2 * size(registers_.look.highlight), 13);
     memory("mirror", "surroundings", size(registers_.look.surroundings), 32);
     memory("press", "tone", 3 * size(registers_.look.tone), 13);

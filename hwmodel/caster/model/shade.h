@@ -91,6 +91,7 @@ inline Mixture mixture_of(const LookRegisters& look, const MatterBytes& bytes) {
   Mixture mixture;
   mixture.l = static_cast<std::int32_t>(UInt<12>(16 * bytes.liquid + (bytes.liquid >> 4)));
   mixture.w = std::clamp(73 * (bytes.obstacle - 148), 0, 4096);
+  // A multiplexer before the mixer. The gloss of all solids is the same.
   const Material& solid = look.tinted ? look.tints[static_cast<std::size_t>(bytes.heat)] : look.solid;
   mixture.material = mixed(solid, look.liquid, mixture.l);
   if (look.glow) {

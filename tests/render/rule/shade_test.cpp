@@ -87,9 +87,9 @@ TEST(Tables, GlowNeverDarkensWithHeat) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_GE(table.light[i][c], table.light[i - 1][c]) << i;
 }
 
-// Black is tone 0, red 127 and white 255. A quarter of the way to the next one nothing changes: that is up to
-// tone 31, where 4096 x 31 / 127 is 999. Tone 63 is 4096 x 63 / 127 = 2031 of the way. The share of red there
-// is t = 2 (2031 - 1024) = 2014, and t^2 (12288 - 2 t) / 2^24 is 1997.
+// Black is tone 0, red 127 and white 255. An eighth of the way to the next one nothing changes: that is up to
+// tone 15, where 4096 x 15 / 127 is 483. Tone 63 is 4096 x 63 / 127 = 2031 of the way. The share of red there
+// has t = 4 (2031 - 512) / 3 = 2025, and is t^2 (12288 - 2 t) / 2^24 = 2013.
 TEST(Tables, SolidsByTone) {
   Look look;
   EXPECT_FALSE(look.tinted());
@@ -97,10 +97,10 @@ TEST(Tables, SolidsByTone) {
   look.tints[2] = {4096, 4096, 4096};
   look.tint_count = 3;
   EXPECT_TRUE(look.tinted());
-  for (const std::int32_t tone : {0, 31}) EXPECT_EQ(tint_at(look, tone), (Color{})) << tone;
-  EXPECT_EQ(tint_at(look, 63), (Color{1997, 0, 0}));
-  for (const std::int32_t tone : {96, 127, 158}) EXPECT_EQ(tint_at(look, tone), look.tints[1]) << tone;
-  for (const std::int32_t tone : {224, 255}) EXPECT_EQ(tint_at(look, tone), look.tints[2]) << tone;
+  for (const std::int32_t tone : {0, 15}) EXPECT_EQ(tint_at(look, tone), (Color{})) << tone;
+  EXPECT_EQ(tint_at(look, 63), (Color{2013, 0, 0}));
+  for (const std::int32_t tone : {112, 127, 142}) EXPECT_EQ(tint_at(look, tone), look.tints[1]) << tone;
+  for (const std::int32_t tone : {239, 255}) EXPECT_EQ(tint_at(look, tone), look.tints[2]) << tone;
 
   look.metallic = 4096;  // a metal mirrors its colour, and scatters 614 / 4096 of it
   const Tints table = tint_table(look, 2000, {4096, 4096, 4096});

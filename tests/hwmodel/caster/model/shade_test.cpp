@@ -194,6 +194,26 @@ TEST(RaycastShade, GlowAndObstaclesAreMixedIn) {
   EXPECT_EQ(mixture_of(look, {0, 200, 255}).w, 4096);
 }
 
+// The same with the solid of tone 200. Without tones it is that of the register: 2000 + 502 = 2502 less
+// rounded(2448 x 1606, 12) = 960.
+TEST(RaycastShade, SolidsHaveTheMaterialOfTheirTone) {
+  LookRegisters look;
+  look.solid = {{2000, 2000, 2000}, {0, 0, 0}, {0, 0, 0}, 10};
+  look.liquid = {{3000, 3000, 3000}, {500, 500, 500}, {2000, 2000, 2000}, 2010};
+  look.obstacle = {{54, 54, 54}, {1301, 1301, 1301}, {24, 24, 24}, 14};
+  look.tints[199] = look.tints[201] = look.liquid;
+  look.tints[200] = {{1000, 1000, 1000}, {100, 100, 100}, {0, 0, 0}, 10};
+  const MatterBytes bytes{128, 200, 170};
+  EXPECT_EQ(mixture_of(look, bytes).material.diffuse, (Rgb{1542, 1542, 1542}));
+  look.tinted = true;
+  const Mixture mixture = mixture_of(look, bytes);
+  EXPECT_EQ(mixture.material.diffuse, (Rgb{1239, 1239, 1239}));
+  EXPECT_EQ(mixture.material.mirror, (Rgb{693, 693, 693}));
+  EXPECT_EQ(mixture.material.highlight, (Rgb{620, 620, 620}));
+  EXPECT_EQ(mixture.material.gloss, 622);
+  EXPECT_EQ(mixture.emission, (Rgb{}));
+}
+
 // facing is 16384, and lit is (18842 x 14247) >> 14 = 16384, of which 100/256 are 6400. From above come 900,
 // of which 77/256 are 270. The lamp gives 781, 390, 0. Glow by 9/32 gives 1728, 552, 103.
 TEST(RaycastShade, GlowArrivesWhereItIsAskedFor) {
