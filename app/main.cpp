@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     add_export(program);
     add_render(program);
     for (const Elsewhere& row : kElsewhere)
-      program.add(std::string(row.command), std::string(row.description));
+      if (row.there) program.add(std::string(row.command), std::string(row.description));
     add_info(program);
     add_list(
         program,

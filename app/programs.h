@@ -14,12 +14,12 @@ namespace voxmelt::app {
 struct Elsewhere {
   std::string_view command, program;
   std::string_view description;  // the command's text in --help of voxmelt
+  bool there = true;             // this build has it
 };
 
 inline constexpr std::array kElsewhere{
-#if VOXMELT_VIEW
-    Elsewhere{"view", "voxmelt-view", "Melt it by hand, in a browser: sources, vents, numbers, camera"},
-#endif
+    Elsewhere{"view", "voxmelt-view", "Melt it by hand, in a browser: sources, vents, numbers, camera",
+              VOXMELT_VIEW != 0},
     Elsewhere{"bench", "voxmelt-measure",
               "Throughput, beside what this machine could do at most and the paper's program"},
     Elsewhere{"accuracy", "voxmelt-measure",

@@ -145,7 +145,8 @@ struct Worst {
 
 void measure(const MidMelt& which, const Options& options, std::map<std::string, Worst>& worst) {
   scene::Scene scene =
-      scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(which.scene) + ".toml"), {"pieces.fall=false"});  // as docs/results has it
+      scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (std::string(which.scene) + ".toml"),
+                  {"pieces.fall=false"});  // as docs/results has it
   run::Simulation simulation(scene.parameters, std::move(scene.initial), run::implementations().widest());
   while (simulation.steps_done() < which.steps) simulation.step();
   render::DensityField density;
