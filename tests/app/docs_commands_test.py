@@ -80,7 +80,8 @@ class Reader:
         self.must("voxmelt run scene.toml --out out/long --quiet")
         self.must("voxmelt export scene.toml --out exported --quiet")
         shutil.copytree(self.folder / "out", self.folder / "finished")
-        (self.folder / "hwmodel").symlink_to(root / "hwmodel")
+        for name in ("hwmodel", "tests"):
+            (self.folder / name).symlink_to(root / name)
         run = subprocess.Popen(["voxmelt", "run", "scene.toml", "--steps", "4000000", "--frame-every", "0", "--out", "out/stopped", "--quiet"],
                                cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)
         while not list(self.folder.glob("out/stopped.partial-*/frames")):

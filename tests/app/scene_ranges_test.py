@@ -15,6 +15,9 @@ grid.size = [8, 8, 8]
 [heat.air]
 exchange = 0.1
 bottom = 0.2
+[[materials]]
+name = "other"
+melting_point = 0.0625
 [[heat_source]]
 at = [1, 2, 3]
 power = 5
@@ -36,6 +39,7 @@ at = [2, 2, 2]
 """
 WITH = {"material.latent_heat": ["material.melting_point=0.000001"],  # at most 1 together
         "material.freezing_point": ["material.melting_point=1"],
+        "materials.0.conductivity": ["heat.gamma=0.001"],  # gamma x conductivity has a bound
         "heat_source.0.radius": ['heat_source.0.kind="sphere"'],
         "flow.viscous": ['flow={law="viscous", viscous={kappa=1}}']}
 NOT_TRIED = {"start.step"}  # needs an export
