@@ -108,6 +108,7 @@ TEST(Code, AVolumeIsReadBack) {
     CodedState code{CodeLayout(design)};
     code.store(start.volume);
     state::Volume back(grid);
+    if (design.of_materials()) back.material = decltype(back.material)(grid);
     for (int z = 0; z < grid.z; ++z)
       for (int x = 0; x < grid.x; x += design.shape.lanes) code.load(design.shape, {x, 0, z, 0, 0}, back);
     ASSERT_EQ(worlds::difference(start.volume, back), "") << seed;
