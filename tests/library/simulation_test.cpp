@@ -131,7 +131,8 @@ TEST_F(Library, LedgersAddUpToWhatIsThere) {
   check(books.energy, energy,
         {"melted", "frozen", "added", "removed", "reheated", "accelerated", "dissipated", "capped"});
   check(books.heat, heat,
-        {"conducted", "walls", "convected", "radiated", "warmed", "cooled", "added", "removed", "rounded"});
+        {"conducted", "walls", "convected", "radiated", "warmed", "cooled", "melted", "added", "removed",
+         "rounded"});
 
   Ledgers broken = books;
   broken.heat.held += 1;
@@ -164,6 +165,7 @@ TEST_F(Library, TermsHaveTheirSigns) {
   h.removed = 8;
   h.rounded = 9;
   h.walls = 10;
+  h.melted = 11;
   const Ledgers books = library::to_ledgers(ledger, {.solid = 10, .liquid = 20, .energy = 30, .heat = 40});
   const auto text = [](const Ledger& one) {
     std::string all = to_string(one.start) + " ";
@@ -175,7 +177,8 @@ TEST_F(Library, TermsHaveTheirSigns) {
             "1 melted 2 frozen -9 added 3 removed -4 reheated 5 accelerated 6 dissipated -7 capped -8 30");
   EXPECT_EQ(
       text(books.heat),
-      "1 conducted 2 walls 10 convected 3 radiated 4 warmed 5 cooled -6 added 7 removed -8 rounded 9 40");
+      "1 conducted 2 walls 10 convected 3 radiated 4 warmed 5 cooled -6 melted 11 added 7 removed -8 rounded "
+      "9 40");
 }
 
 TEST_F(Library, OverridesThreadsAndSteps) {

@@ -72,10 +72,11 @@ TEST(Ledger, ExpectsTheStartAndEveryTermWithItsSign) {
   l.heat.radiated = 100000;
   l.heat.warmed = 10000;
   l.heat.cooled = 1000;
+  l.heat.melted = -20000000000;
   l.heat.added = 100;
   l.heat.removed = 10;
   l.heat.rounded = 1;
-  EXPECT_EQ(l.heat.expected(), 3511109091);
+  EXPECT_EQ(l.heat.expected(), -16488890909);
 }
 
 // The values distinguish every term from the others, and fit 64 bits.
@@ -83,7 +84,7 @@ LedgerTerms<std::int64_t> some_books() {
   LedgerTerms<std::int64_t> books;
   books.mass = {1, -2};
   books.energy = {3, 19, 4, 5, 6, 7, 8, std::int64_t{1} << 62};
-  books.heat = {-10, 18, 11, 12, 13, 14, 15, 16, -17};
+  books.heat = {-10, 18, 11, 12, 13, 14, -20, 15, 16, -17};
   return books;
 }
 
@@ -108,6 +109,7 @@ TEST(Ledger, BooksEveryTermInItsPlace) {
   EXPECT_EQ(l.heat.radiated, 36);
   EXPECT_EQ(l.heat.warmed, 39);
   EXPECT_EQ(l.heat.cooled, 42);
+  EXPECT_EQ(l.heat.melted, -60);
   EXPECT_EQ(l.heat.added, 45);
   EXPECT_EQ(l.heat.removed, 48);
   EXPECT_EQ(l.heat.rounded, -51);
@@ -120,7 +122,7 @@ TEST(Ledger, TermsOfManyWorkersAddUp) {
   for (int i = 0; i < 2; ++i) sum += books;
   EXPECT_EQ(sum.mass, (MassTerms<std::int64_t>{2, -4}));
   EXPECT_EQ(sum.energy, (EnergyTerms<std::int64_t>{6, 38, 8, 10, 12, 14, 16, 18}));
-  EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 36, 22, 24, 26, 28, 30, 32, -34}));
+  EXPECT_EQ(sum.heat, (HeatTerms<std::int64_t>{-20, 36, 22, 24, 26, 28, -40, 30, 32, -34}));
 }
 
 // Makes a run that uses every term of the ledgers.
@@ -143,10 +145,20 @@ run::Simulation busy(Case which) {
   p.heat.air_exchange = 9000;
   p.heat.air_temperature.assign(12, 30000);
   for (std::size_t y = 6; y < 12; ++y) p.heat.air_temperature[y] = 1000;
+  p.materials = {{.melting_point = 20000, .latent_heat = 3000, .air_exchange = 9000},
+                 {.melting_point = 20000, .latent_heat = 1000, .air_exchange = 9000}};
+  for (rule::SolidMaterial& row : p.materials)
+    for (std::size_t other = 0; other < 2; ++other) {
+      row.weight_face[other] = 6000;
+      row.weight_edge[other] = 3000;
+      row.weight_corner[other] = 2000;
+    }
   p.vents = {{{{16 * 3, 16 * 9, 16 * 3}, 24}, 700, 60000, 3000, 0, 0xFFFFFFFFu}};
   p.drains = {{{{16 * 9, 16 * 1, 16 * 6}, 40}, 500, 5, 0xFFFFFFFFu}};
   Volume v(Grid{12, 12, 9});
   for_each({2, 2, 2, 10, 8, 7}, [&](int x, int y, int z) { put_solid(v, x, y, z, 4000, 15000 + 100 * x); });
+  v.material = decltype(v.material)(v.grid);
+  for_each({2, 2, 2, 6, 8, 7}, [&](int x, int y, int z) { v.material[v.at(x, y, z)] = 1; });
   p.heat.walls = true;
   put_inert(v, 6, 1, 4);
   v.heat[v.at(6, 1, 4)] = 40000;
@@ -163,7 +175,7 @@ TEST_P(LedgerOfALaw, BalancesAndEveryTermIsUsed) {
   }
   const HeatLedger& h = s.ledger().heat;
   for (const Sum term : {s.ledger().mass.added, s.ledger().mass.removed, h.conducted, h.walls, h.convected,
-                         h.radiated, h.warmed, h.cooled, h.added, h.removed, h.rounded})
+                         h.radiated, h.warmed, h.cooled, h.melted, h.added, h.removed, h.rounded})
     EXPECT_NE(term, 0);
   const EnergyLedger& e = s.ledger().energy;
   for (const Sum term : {e.melted, e.added, e.removed, e.reheated})
