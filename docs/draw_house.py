@@ -26,6 +26,7 @@ PURPOSES = {
     "library": "what it is made of",
     "examples": "programs of a page",
     "app": "the voxmelt program, one file per subcommand",
+    "app/view": "a page in the browser",
     "bench": "benchmarks and their scripts",
     "measure": "what `voxmelt bench` times and checks",
     "measure/baseline": "the paper's program, plainly written",
