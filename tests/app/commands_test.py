@@ -613,7 +613,8 @@ kappa = 20
         for row in [row for i, row in enumerate(rows) if i % 3 == 0 or row.split()[0] in nowhere]:
             name = row.split()[0]
             found = 0
-            for scene, *more in (["proving_ground"], ["lava", "--from", 40], ["ice", "--from", 40]):
+            grounds = [["proving_ground"], ["lava", "--from", 40], ["ice", "--from", 40]]
+            for scene, *more in [["chocolate_nuts"]] if name == "material-tone" else grounds:
                 result = voxmelt("verify", scene, *more, "--picture", "--size", "32x32", "--plant", name,
                                  "--set", "hw.pipes=2", "--set", "hw.stall_seed=1", "--report", "p.json", cwd=self.folder)
                 if result.returncode == 2:
