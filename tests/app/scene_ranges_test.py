@@ -38,7 +38,7 @@ size = [2, 2, 2]
 at = [2, 2, 2]
 """
 WITH = {"material.latent_heat": ["material.melting_point=0.000001"],  # at most 1 together
-        "material.freezing_point": ["material.melting_point=1"],
+        "material.freezing_point": ["material.melting_point=1", "materials.0.melting_point=1"],
         "materials.0.conductivity": ["heat.gamma=0.001"],  # gamma x conductivity has a bound
         "heat_source.0.radius": ['heat_source.0.kind="sphere"'],
         "flow.viscous": ['flow={law="viscous", viscous={kappa=1}}']}

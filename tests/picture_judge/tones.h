@@ -36,7 +36,7 @@ struct Tones {
     }
   }
   std::vector<Vec> tints;  // none, if the look has no tones
-  Ints tone_of;                 // by material
+  Ints tone_of;            // by material
 
  private:
   static bool equal(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }

@@ -1,10 +1,10 @@
 #include "kernel/engine/parallel/loose_pieces.h"
 
-#include <utility>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/automaton/state/connectivity.h"

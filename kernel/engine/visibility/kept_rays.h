@@ -1,6 +1,7 @@
 // This provider casts only rays that may have changed. While a source stands still, a ray that saw it sees
 // it, unless an opaque cell has appeared: then each such ray is cast anew. A dark ray stays dark while the
-// cell that it met is opaque. If a source moves, every ray is cast anew. A sky always stands still. So the irradiance is the same as if all rays were cast each time, and depends on no memory.
+// cell that it met is opaque. If a source moves, every ray is cast anew. A sky always stands still. So the
+// irradiance is the same as if all rays were cast each time, and depends on no memory.
 //
 // While all sources are steady, only cells about a change of the masks are looked at, and only cells with a
 // new fate or face are written. The fates alone are gone through in every call that finds news.

@@ -34,7 +34,8 @@ inline const std::vector<SceneStep>& drawn_scenes() {
 class MidMelt {
  public:
   explicit MidMelt(const SceneStep& which)
-      : scene_(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (which.first + ".toml"), {"pieces.fall=false"})),
+      : scene_(scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (which.first + ".toml"),
+                           {"pieces.fall=false"})),
         simulation_(scene_.parameters, std::move(scene_.initial), run::implementations().widest()) {
     while (simulation_.steps_done() < which.second) simulation_.step();
   }
