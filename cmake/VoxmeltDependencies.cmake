@@ -30,6 +30,20 @@ find_package(benchmark REQUIRED)
 # The two libraries of `voxmelt view`. Without them the rest is as ever.
 find_package(Boost 1.74 QUIET)
 find_package(JPEG QUIET)
+# Boost 1.74 knows the coroutines of GCC, and not those of clang 14.
+if(Boost_FOUND)
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_INCLUDES ${Boost_INCLUDE_DIRS})
+  set(CMAKE_REQUIRED_LIBRARIES Threads::Threads)
+  check_cxx_source_compiles("#include <utility>
+#include <boost/asio/awaitable.hpp>
+#ifndef BOOST_ASIO_HAS_CO_AWAIT
+#error
+#endif
+int main() { return 0; }" VOXMELT_COROUTINES)
+  unset(CMAKE_REQUIRED_INCLUDES)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+endif()
 
 # SystemC as Debian builds it: C++17, also for us (else sc_api_version_... does not link).
 find_package(PkgConfig REQUIRED)

@@ -91,8 +91,8 @@ int run_view(const ViewOptions& options) {
 
   std::unique_ptr<view::Server> server;
   view::Session session(open, options.scene,
-                        [&](std::optional<view::Client> client, view::MessagePtr message) {
-                          server->send(client, std::move(message));
+                        [&](std::optional<view::Client> client, const view::MessagePtr& message) {
+                          server->send(client, message);
                         });
   if (journal) session.follow(std::move(*journal));
   if (!options.record.empty()) session.record(view::JournalWriter(options.record, options.scene));

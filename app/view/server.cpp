@@ -267,6 +267,6 @@ Server::~Server() = default;
 std::uint16_t Server::port() const { return net_->port(); }
 void Server::run() { net_->run(); }
 void Server::stop() { net_->stop(); }
-void Server::send(std::optional<Client> client, MessagePtr message) { net_->send(client, message); }
+void Server::send(std::optional<Client> client, const MessagePtr& message) { net_->send(client, message); }
 
 }  // namespace voxmelt::view

@@ -34,7 +34,7 @@ class Server {
   void stop();  // any thread
 
   // Any thread. A page that is too slow for frames gets the newest one: those between are dropped.
-  void send(std::optional<Client> client, MessagePtr message);
+  void send(std::optional<Client> client, const MessagePtr& message);
 
  private:
   class Net;

@@ -40,7 +40,7 @@ struct Message {
 using MessagePtr = std::shared_ptr<const Message>;
 
 // Sends to one page, or to all of them if there is no client. It may be called by the session's thread only.
-using Send = std::function<void(std::optional<Client>, MessagePtr)>;
+using Send = std::function<void(std::optional<Client>, const MessagePtr&)>;
 
 class Session {
  public:
