@@ -353,7 +353,10 @@ void Session::pick(Client client, int x, int y) {
   const std::optional<Hit> hit = simulation_.pick(x, y, picture(Quality::fast));
   json answer{{"type", "pick"}, {"at", {x, y}}, {"step", simulation_.steps_done()}};
   if (hit) {
-    const Cell cell = hit->matter;
+    // The sides of the ground end where the grid does, and views do not check coordinates.
+    const Grid grid = simulation_.grid();
+    const Cell cell{std::clamp(hit->matter.x, 0, grid.x - 1), std::clamp(hit->matter.y, 0, grid.y - 1),
+                    std::clamp(hit->matter.z, 0, grid.z - 1)};
     json fields = json::object();
     for (const NamedField& field : simulation_.state().fields)
       fields[std::string(field.name)] = field.at(cell.x, cell.y, cell.z);

@@ -7,6 +7,7 @@ import random
 import signal
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -255,6 +256,12 @@ class ViewTest(unittest.TestCase):
             self.assertEqual(hit["fields"]["heat"], 32112)  # 0.49 of 65535
             page.send("pick 0 0")
             self.assertNotIn("cell", page.text("pick"))
+            for x in range(0, size[0], 16):  # the sides of the ground, too
+                for y in range(0, size[1], 16):
+                    page.send(f"pick {x} {y}")
+                    for cell, side in zip(page.text("pick").get("cell", ()), (20, 16, 20)):
+                        self.assertIn(cell, range(side))
+                time.sleep(0.1)  # not too many lines a second
 
     def test_it_ends_by_signals(self):
         for how in (signal.SIGINT, signal.SIGTERM):
