@@ -160,6 +160,22 @@ void Simulation::set_drains(const std::vector<Drain>& drains) {
   translated([&] { parts_->change_sources([&](auto& all) { all.drains = library::to_rules(drains); }); });
 }
 
+void Simulation::pour(const Position& at, double radius, double temperature) {
+  translated([&] {
+    const rule::Region ball = library::to_region("pour", at, radius);
+    const rule::Temperature heat = library::to_temperature("pour", temperature);
+    if (!parts_->simulation.pour(ball, heat))
+      throw InputError("pour: error: no cell of the grid is in the ball");
+  });
+}
+
+void Simulation::carve(const Position& at, double radius) {
+  translated([&] {
+    const rule::Region ball = library::to_region("carve", at, radius);
+    if (!parts_->simulation.carve(ball)) throw InputError("carve: error: no cell of the grid is in the ball");
+  });
+}
+
 void Simulation::export_state(const std::filesystem::path& folder, const std::string& format) const {
   const io::Format& chosen = find_format(format);
   translated([&] {

@@ -116,8 +116,8 @@ Value list_of(const Document& document, const std::vector<Drain>& drains) {
   return document.list("drain", drains, [&](const Drain& drain) { return region_table(document, drain); });
 }
 
-template <class Rules>
-Rules checked(const Value& root, Rules (*read)(scene::Reader&)) {
+template <class Rule>
+Rule checked(const Value& root, Rule (*read)(scene::Reader&)) {
   scene::Reader reader(root, "");
   return read(reader);
 }
@@ -145,6 +145,21 @@ std::vector<rule::Vent> to_rules(const std::vector<Vent>& vents) {
 
 std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains) {
   return checked(list_of(Document("set_drains"), drains), scene::read_drains);
+}
+
+rule::Region to_region(const char* caller, const Position& at, double radius) {
+  const Document document(caller);
+  Value table = document.table();
+  table.put("at", document.position(at));
+  table.put("radius", document.number(radius));
+  return checked(table, scene::read_region);
+}
+
+rule::Temperature to_temperature(const char* caller, double temperature) {
+  const Document document(caller);
+  Value table = document.table();
+  table.put("temperature", document.number(temperature));
+  return checked(table, scene::read_temperature);
 }
 
 scene::Value lists_of(const rule::Parameters& parameters) {

@@ -15,6 +15,10 @@ std::vector<rule::HeatSource> to_rules(const std::vector<HeatSource>& sources);
 std::vector<rule::Vent> to_rules(const std::vector<Vent>& vents);
 std::vector<rule::Drain> to_rules(const std::vector<Drain>& drains);
 
+// The same for a ball of pour and carve, whose `caller` stands in messages.
+rule::Region to_region(const char* caller, const Position& at, double radius);
+rule::Temperature to_temperature(const char* caller, double temperature);
+
 // The conversion is exact: to_rules gives the same integers again.
 HeatSource from_rule(const rule::HeatSource& source);
 Vent from_rule(const rule::Vent& vent);

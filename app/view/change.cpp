@@ -160,6 +160,20 @@ void apply_to_drains(const Change& change, const ListKey& key, Simulation& simul
   simulation.set_drains(drains);
 }
 
+bool apply_to_matter(const Change& change, Simulation& simulation) {
+  const std::vector<double>& n = change.numbers;
+  if (change.key == "pour") {
+    need(change, 5);
+    simulation.pour({n[0], n[1], n[2]}, n[3], n[4]);
+  } else if (change.key == "carve") {
+    need(change, 4);
+    simulation.carve({n[0], n[1], n[2]}, n[3]);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Change read_change(std::string_view text) {
@@ -191,6 +205,7 @@ std::string text_of(const Change& change) {
 }
 
 void apply(const Change& change, Simulation& simulation) {
+  if (apply_to_matter(change, simulation)) return;
   const std::optional<ListKey> key = list_key(change.key);
   if (!key) return simulation.set(change.key, one(change));
   if (key->list == "heat_source") return apply_to_sources(change, *key, simulation);

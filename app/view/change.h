@@ -7,6 +7,8 @@
 //   vent.add X Y Z RADIUS RATE TEMPERATURE
 //   drain.0.at X Y Z                 .radius R  .rate A     .remove
 //   drain.add X Y Z RADIUS RATE
+//   pour X Y Z RADIUS TEMPERATURE    a ball of liquid, see Simulation::pour
+//   carve X Y Z RADIUS
 //   flow.viscous.kappa 0.02          any other key that Simulation::set() takes
 //
 // Units and ranges are those of scene files. Text that is no change, and numbers out of their range, throw

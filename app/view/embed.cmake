@@ -2,6 +2,7 @@
 set(rows "")
 set(texts "")
 foreach(row "index.html|/|text/html; charset=utf-8" "view.js|/view.js|text/javascript; charset=utf-8"
+            "ball.js|/ball.js|text/javascript; charset=utf-8"
             "camera.js|/camera.js|text/javascript; charset=utf-8" "panel.js|/panel.js|text/javascript; charset=utf-8"
             "view.css|/view.css|text/css; charset=utf-8" "icon.svg|/icon.svg|image/svg+xml")
   string(REPLACE "|" ";" parts "${row}")

@@ -149,6 +149,19 @@ class Simulation {
   /// @throws InputError for numbers out of their range; nothing is changed then
   void set_drains(const std::vector<Drain>& drains);
 
+  /// Pours liquid into a ball, at once: each cell of air whose centre is in it gets as much as a full cell
+  /// holds, of this temperature. Other cells stay. The ledgers book it as what vents add (docs/automaton.md,
+  /// section 16).
+  /// @param at centre of the ball, in cells
+  /// @param radius more than 0, at most 8192
+  /// @param temperature 0..1; unused in a scene without [heat]
+  /// @throws InputError for numbers out of their range, and for a ball outside the grid; nothing changes then
+  void pour(const Position& at, double radius, double temperature);
+  /// Takes solid and liquid out of a ball, at once: out of each cell whose centre is in it. Inert cells stay.
+  /// The ledgers book it as what drains take. Numbers are those of pour().
+  /// @throws InputError for numbers out of their range, and for a ball outside the grid; nothing changes then
+  void carve(const Position& at, double radius);
+
   /// Writes the state and parameters.json into a folder. The folder is made, or replaced whole if it holds
   /// nothing but an earlier export. It is never half-written. `format` is a name from formats().
   /// @throws InputError for an unknown format

@@ -7,6 +7,7 @@
 
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/engine/cpu/workers.h"
+#include "kernel/engine/scalar/by_hand.h"
 #include "kernel/engine/scalar/pieces.h"
 #include "kernel/engine/scalar/substeps.h"
 #include "kernel/engine/visibility/providers.h"
@@ -75,6 +76,32 @@ void Simulation::change_parameters(rule::Parameters parameters) {
   make_stepper();
   uploaded_ = false;
   make_irradiance();
+}
+
+// The run loop itself tells the readers of the volume, because a device does not know. It takes the state
+// anew at the next step.
+template <class Edit>
+bool Simulation::edit(const rule::Region& region, const Edit& by_hand) {
+  if (!scalar::meets(region, volume_.grid)) return false;
+  fetch();
+  tell_changes();
+  const state::ChangedRows rows = by_hand();
+  volume_.changed.new_version();
+  for (const state::ChangedRow& row : rows)
+    volume_.changed.mark(state::ChangedBricks::kMatter, row.words, row.y / state::kBrickSide,
+                         row.z / state::kBrickSide);
+  provider_->forget_amounts();
+  if (host_ != nullptr) host_->tell_matter(rows, volume_);
+  uploaded_ = false;
+  return true;
+}
+
+bool Simulation::pour(const rule::Region& region, rule::Temperature temperature) {
+  return edit(region, [&] { return scalar::pour(region, temperature, parameters_, volume_, ledger_); });
+}
+
+bool Simulation::carve(const rule::Region& region) {
+  return edit(region, [&] { return scalar::carve(region, volume_, ledger_); });
 }
 
 void Simulation::resume(state::MidRun run) {

@@ -61,6 +61,11 @@ class Simulation {
   // step.
   void change_parameters(rule::Parameters parameters);
 
+  // Pours and carves by hand between two steps (docs/automaton.md, section 16), and books it as vents and
+  // drains do. They tell if a cell of the grid is in the region. If none is, nothing happens.
+  bool pour(const rule::Region& region, rule::Temperature temperature);
+  bool carve(const rule::Region& region);
+
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
@@ -86,6 +91,8 @@ class Simulation {
   void make_irradiance();
   void make_stepper();
   void let_pieces_fall();
+  template <class Edit>
+  bool edit(const rule::Region& region, const Edit& by_hand);
   bool let_pieces_fall_for_device();
   void fetch_masks();
   void find_irradiance();

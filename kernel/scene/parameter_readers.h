@@ -27,6 +27,8 @@ rule::Heat read_heat(Reader& root, int ny, std::vector<std::string>& warnings);
 std::vector<rule::HeatSource> read_heat_sources(Reader& root);  // [[heat_source]] alone
 std::vector<rule::Vent> read_vents(Reader& root);               // [[vent]]
 std::vector<rule::Drain> read_drains(Reader& root);             // [[drain]]
+rule::Region read_region(Reader& table);                        // at, radius
+rule::Temperature read_temperature(Reader& table);              // of what a vent brings
 // Reads [flow] and its tables.
 rule::Flow read_flow(Reader& root, std::vector<std::string>& warnings);
 

@@ -17,11 +17,6 @@ constexpr std::uint32_t kForever = 0xFFFFFFFF;
 constexpr double kLargestRadius = 8192;
 constexpr std::int32_t kMostStepsPerCell = 1024;
 
-rule::Region read_region(Reader& reader) {
-  const Vec3 at = reader.vector<3>("at", coordinate());
-  return {to_position(at), to_position(reader.number("radius", above(0).at_most(kLargestRadius)))};
-}
-
 rule::Amount read_rate(Reader& reader) {
   return to_amount(reader.number("rate", above(0).at_most(1).because("a full cell per cell and step")));
 }
@@ -35,6 +30,15 @@ void read_interval(Reader& reader, Source& source) {
 }
 
 }  // namespace
+
+rule::Region read_region(Reader& table) {
+  const Vec3 at = table.vector<3>("at", coordinate());
+  return {to_position(at), to_position(table.number("radius", above(0).at_most(kLargestRadius)))};
+}
+
+rule::Temperature read_temperature(Reader& table) {
+  return to_temperature(table.number("temperature", fraction(), 0.0));
+}
 
 rule::Material read_material(Reader& root) {
   rule::Material material;
@@ -79,7 +83,7 @@ std::vector<rule::Vent> read_vents(Reader& root) {
     rule::Vent vent;
     vent.region = read_region(reader);
     vent.rate = read_rate(reader);
-    vent.temperature = to_temperature(reader.number("temperature", fraction(), 0.0));
+    vent.temperature = read_temperature(reader);
     vent.energy = to_amount(reader.number("energy", fraction(), 1.0));
     read_interval(reader, vent);
     reader.finish();

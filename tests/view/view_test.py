@@ -41,7 +41,7 @@ class ViewTest(unittest.TestCase):
     def test_files_of_the_page(self):
         with self.serve() as server:
             for target, kind in (("/", "text/html"), ("/view.js", "text/javascript"), ("/view.css", "text/css"),
-                                 ("/camera.js", "text/javascript"), ("/panel.js", "text/javascript"),
+                                 ("/camera.js", "text/javascript"), ("/ball.js", "text/javascript"), ("/panel.js", "text/javascript"),
                                  ("/icon.svg", "image/svg+xml")):
                 head, body = server.get(target)
                 self.assertIn("200", head[0], target)
@@ -132,6 +132,8 @@ class ViewTest(unittest.TestCase):
                    lambda: f"vent.add {dice.uniform(2, 18)} 12 {dice.uniform(2, 18)} 2 0.3 0.9",
                    lambda: f"vent.0.rate {dice.uniform(0.01, 1)}", lambda: "vent.0.remove",
                    lambda: f"drain.add {dice.uniform(2, 18)} 3 {dice.uniform(2, 18)} 3 0.5", lambda: "drain.0.remove",
+                   lambda: f"pour {dice.uniform(0, 20)} {dice.uniform(0, 16)} {dice.uniform(0, 20)} {dice.uniform(1, 5)} {dice.random()}",
+                   lambda: f"carve {dice.uniform(0, 20)} {dice.uniform(0, 16)} {dice.uniform(0, 20)} {dice.uniform(1, 4)}",
                    lambda: f"heat.gamma {dice.uniform(0.01, 0.3)}", lambda: f"flow.paper.slump {dice.uniform(0, 1)}"]
         for _ in range(8):
             for _ in range(dice.randrange(4)):
@@ -201,6 +203,8 @@ class ViewTest(unittest.TestCase):
                          "change heat_source.9.power 1", "change heat_source.18446744073709551616.power 1",
                          "change heat_source.-1.power 1", "change heat_source.0.radius 1", "change heat_source.0.size 1",
                          "change grid.size 3", "change", "change  ", "change heat.gamma 7", "change vent.add 1 2 3",
+                         "change pour 1 2 3 4", "change pour 90 90 90 2 0.5", "change pour 5 5 5 0 0.5", "change pour 5 5 5 2 1.5",
+                         "change carve 1 2 3", "change carve 5 5 5 99999", "change carve 5 5 nan 2", "change carve.0 5 5 5 2",
                          "step 0", "step -1", "step 1.5", "step 99999999999", "step", "speed 0", "speed 1e9", "play 2",
                          "camera 1 2 3", "camera 0 90 100 0 0 0", "camera 0 0 nan 0 0 0", "size 1 1", "size 99999 99999",
                          "pick -1 0", "pick 99999 0", "nothing", "save", "save /etc/passwd", "save checkpoint x", "play 1 1", "restart now", "\x01", "step 1;step 1"):

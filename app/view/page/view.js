@@ -1,5 +1,6 @@
 // The page talks to the server in lines of text, and shows the frames that come back.
 import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
+import { Ball } from "/ball.js";
 import { Panel } from "/panel.js";
 
 const byId = (id) => document.getElementById(id);
@@ -25,7 +26,7 @@ function connect() {
 
 function hear(message) {
   if (message.type === "world") { state.world = message; panel.showWorld(message); drawHandles(); }
-  if (message.type === "pick") panel.showPick(message);
+  if (message.type === "pick" && !ball.hear(message)) panel.showPick(message);
   if (message.type === "refused") {
     byId("notice").textContent = message.why;
     setTimeout(() => { if (byId("notice").textContent === message.why) byId("notice").textContent = ""; }, 6000);
@@ -60,10 +61,12 @@ async function show(bytes) {
   canvas.dataset.digest = head.digest ?? "";
   panel.showFrame(head, state.times.length / 2);
   drawHandles();
+  ball.draw();
 }
 
 // The camera that the hand has set, until a frame shows it.
 const camera = () => state.own ?? state.camera;
+const ball = new Ball(canvas, handles, camera, say, change);
 let cameraAsked = false;
 function look(next) {
   state.own = next;
@@ -260,6 +263,8 @@ addEventListener("keydown", (event) => {
   else if (event.key === "r") byId("restart").click();
   else if (event.key === "h") { state.own = null; byId("home").click(); }
   else if (event.key === "b") byId("best").click();
+  else if (event.key === "p") byId("pour").click();
+  else if (event.key === "c") byId("carve").click();
   else if (event.key === "?") panel.toggleKeys();
   else return;
   event.preventDefault();

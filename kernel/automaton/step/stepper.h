@@ -42,7 +42,11 @@ class HostStepper : public Stepper {
   // has moved. The run loop calls it only in scenes with such pieces.
   virtual bool let_pieces_fall(std::uint32_t /*step*/, state::Volume& /*volume*/) { return false; }
 
-  // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume.
+  // Tells which rows a hand has changed between two steps. Tiles that sleep there, and beside it, wake up.
+  virtual void tell_matter(const state::ChangedRows& /*changed*/, state::Volume& /*volume*/) {}
+
+  // Runs one phase on `volume` and books it in `ledger`. Between two steps, nothing else changes the volume,
+  // unless tell_matter() says so.
   // `irradiance` is null when the scene has no radiation. After a phase with `moment.unseen` the volume and
   // the books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,

@@ -86,11 +86,16 @@ simd::View Stepper::view_of(state::Volume& volume) {
 }
 
 bool Stepper::let_pieces_fall(std::uint32_t step, state::Volume& volume) {
-  const simd::View view = view_of(volume);
   const FallOfPieces how{static_cast<std::uint32_t>(parameters_.pieces.in_liquid),
                          parameters_.pieces.density};
   const state::ChangedRows& rows = pieces_.fall(how, step, volume);
   if (rows.empty()) return false;
+  tell_matter(rows, volume);
+  return true;
+}
+
+void Stepper::tell_matter(const state::ChangedRows& rows, state::Volume& volume) {
+  const simd::View view = view_of(volume);
   changed_.clear();
   for (const state::ChangedRow& row : rows) changed_.edit(row.z)[row.y >> view.tile_shift] |= row.words;
   note_matter(changed_);
@@ -99,7 +104,6 @@ bool Stepper::let_pieces_fall(std::uint32_t step, state::Volume& volume) {
   dirty_.add(changed_);
   if (heat_) heat_->note(changed_);
   if (viscous_) viscous_->note(changed_);
-  return true;
 }
 
 void Stepper::tell_irradiance(const state::ChangedRows& changed) {

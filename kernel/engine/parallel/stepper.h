@@ -25,6 +25,7 @@ class Stepper final : public step::HostStepper {
   void run(step::Phase phase, step::Moment moment, const step::Irradiance* irradiance, state::Volume& volume,
            state::Ledger& ledger) override;
   bool let_pieces_fall(std::uint32_t step, state::Volume& volume) override;
+  void tell_matter(const state::ChangedRows& changed, state::Volume& volume) override;
   void tell_irradiance(const state::ChangedRows& changed) override;
   void change_sources(const rule::Parameters& parameters) override;
   void tell_changes(state::ChangedBricks& changed) override;

@@ -6,6 +6,7 @@
 
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
+#include "kernel/engine/scalar/region.h"
 
 namespace voxmelt::scalar {
 namespace {
@@ -13,18 +14,9 @@ namespace {
 // Calls visit(x, y, z) for the non-blocked cells of a region, x fastest.
 template <class Visit>
 void for_region(const rule::Region& region, const state::Volume& volume, Visit&& visit) {
-  const state::Grid g = volume.grid;
-  const auto first = [&](std::int64_t at) {
-    return static_cast<int>(std::max<std::int64_t>(0, (at - region.radius) / rule::kPositionUnit - 1));
-  };
-  const auto last = [&](std::int64_t at, int size) {
-    return static_cast<int>(std::min<std::int64_t>(size - 1, (at + region.radius) / rule::kPositionUnit + 1));
-  };
-  for (int z = first(region.at.z); z <= last(region.at.z, g.z); ++z)
-    for (int y = first(region.at.y); y <= last(region.at.y, g.y); ++y)
-      for (int x = first(region.at.x); x <= last(region.at.x, g.x); ++x)
-        if (rule::contains(region, x, y, z) && !volume.solid.test(x, y, z) && !volume.inert.test(x, y, z))
-          visit(x, y, z);
+  for_cells(region, volume.grid, [&](int x, int y, int z) {
+    if (!volume.solid.test(x, y, z) && !volume.inert.test(x, y, z)) visit(x, y, z);
+  });
 }
 
 // Calls visit(x, y, z) for the liquid cells of the border. Inner slices share the ends of each row with it.
