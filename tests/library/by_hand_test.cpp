@@ -1,5 +1,5 @@
-// What a hand pours and carves between two steps has the bits of a scene that begins from such a state,
-// whoever steps. The books balance to the unit.
+// A hand pours and carves between two steps. Every engine then gives the bits of one that begins from that
+// state, and the books balance to the unit.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
