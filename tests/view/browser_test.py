@@ -157,6 +157,32 @@ class BrowserTest(unittest.TestCase):
         self.shot("by_hand")
         self.no_errors()
 
+    def journal(self):
+        with Page(self.server) as page:
+            page.send("save journal")
+            return page.file()[1].decode().splitlines()[1:]
+
+    def test_a_ball_pours_and_carves(self):
+        self.open("bunny_small")
+        canvas = self.element("picture")
+        camera = self.driver.execute_script("return document.querySelector('#handles .ring').getAttribute('cx')")
+        for key, numbers in (("p", ["5", "0.9"]), ("c", ["5"])):
+            before, lines = self.pixels(), len(self.journal())
+            ActionChains(self.driver, duration=50).send_keys(key).move_to_element_with_offset(canvas, -80, -60).perform()
+            ring = self.driver.find_element(By.CSS_SELECTOR, "#handles .ball")
+            self.wait(lambda: ring.is_displayed() and abs(float(ring.get_attribute("cx")) - 420) < 2)
+            self.shot(f"ball_{key}")
+            ActionChains(self.driver, duration=50).click_and_hold().release().perform()
+            self.wait(lambda: len(self.journal()) > lines)
+            words = self.journal()[-1].split()
+            self.assertEqual(words[:2] + words[5:], ["0", {"p": "pour", "c": "carve"}[key], *numbers])
+            self.wait(lambda: self.pixels() != before and self.data("digest"))
+        after = self.driver.execute_script("return document.querySelector('#handles .ring').getAttribute('cx')")
+        self.assertEqual(after, camera, "the camera stays")
+        ActionChains(self.driver).send_keys("c").perform()
+        self.wait(lambda: self.element("carve").get_attribute("aria-pressed") == "false")
+        self.no_errors()
+
     def test_numbers_are_set_and_refused(self):
         self.open("bunny_small")
         key = self.element("key")

@@ -12,6 +12,7 @@ export class Ball {
     this.tool = null;    // "pour" or "carve"
     this.pointer = null; // where it is, in the window
     this.held = false;   // it is pressed
+    this.pressed = false; // and nothing has been done for it yet: a short click counts, too
     this.asked = false;  // an answer of the server is awaited
     this.place = null;   // what lies under the pointer, in cells
     this.ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
@@ -45,7 +46,7 @@ export class Ball {
     if (!this.tool || event.button !== 0 || event.shiftKey || !event.isPrimary) return;
     event.stopImmediatePropagation();
     this.canvas.setPointerCapture(event.pointerId);
-    this.held = true;
+    this.held = this.pressed = true;
     this.move(event);
   }
 
@@ -70,7 +71,9 @@ export class Ball {
     if (!this.tool || !this.asked) return false;
     this.asked = false;
     this.place = pick.position ?? null;
-    if (this.held && this.place) {
+    const acts = this.held || this.pressed;
+    this.pressed = false;
+    if (acts && this.place) {
       const numbers = [...this.place.map((v) => Math.round(v * 16) / 16), Number(byId("ball-radius").value)];
       if (this.tool === "pour") numbers.push(Number(byId("ball-temperature").value));
       this.change(this.tool, ...numbers);
