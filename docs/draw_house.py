@@ -54,6 +54,7 @@ PURPOSES = {
     "render/light": "volumes of light",
     "render/brick": "what bricks of places hold",
     "render/packet": "rays in packets, and pictures by them",
+    "render/textures": "what a graphics processor draws from",
     "render/reference": "the picture, in plain loops",
     "render/image": "PNG, sheet, film",
     "render/visibility": "rays by Embree",

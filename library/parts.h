@@ -12,6 +12,7 @@
 #include "kernel/scene/scene.h"
 #include "library/version_numbers.h"
 #include "render/packet/picture.h"
+#include "render/textures/picture_textures.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt {
@@ -38,6 +39,8 @@ class Simulation::Parts {
 
   // Returns the picture of the present state. It keeps what has not changed since the last one.
   render::Picture& up_to_date();
+  // Returns the textures of the present state. They are kept from their first call on.
+  const render::PictureTextures& textures();
 
   const step::Implementation& implementation;
   const int threads;
@@ -63,6 +66,7 @@ class Simulation::Parts {
  private:
   bool sources_changed_ = false;  // true once the sources differ from those in the settings
   render::Picture picture_;
+  render::PictureTextures textures_;
   library::VersionNumbers versions_;
 };
 

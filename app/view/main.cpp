@@ -99,7 +99,8 @@ int run_view(const ViewOptions& options) {
   server = std::make_unique<view::Server>(
       static_cast<std::uint16_t>(options.port),
       view::Audience{[&](view::Client client) { session.come(client); },
-                     [&](view::Client client, std::string line) { session.say(client, std::move(line)); }});
+                     [&](view::Client client, std::string line) { session.say(client, std::move(line)); },
+                     [&](view::Client client) { session.leave(client); }});
   const std::string url = fmt::format("http://127.0.0.1:{}/", server->port());
   print("{}\n", url);
   std::fflush(stdout);  // whoever waits for the address reads a pipe

@@ -111,6 +111,8 @@ class Server::Net {
       if (message->kind == Message::Kind::frame) {
         dropped += frame != nullptr;
         frame = message;
+      } else if (message->kind == Message::Kind::textures) {
+        textures = message;  // the page has asked for it, and asks for no other one meanwhile
       } else if (texts.size() < kMostWaiting) {
         texts.push_back(message);
       }
@@ -122,7 +124,7 @@ class Server::Net {
         next = texts.front();
         texts.pop_front();
       } else {
-        next.swap(frame);
+        next.swap(textures ? textures : frame);
       }
       return next;
     }
@@ -130,7 +132,7 @@ class Server::Net {
     websocket::stream<beast::tcp_stream> stream;
     net::steady_timer news;
     std::deque<MessagePtr> texts;
-    MessagePtr frame;
+    MessagePtr frame, textures;
     std::uint64_t dropped = 0;
     bool open = true;
   };
@@ -215,6 +217,7 @@ class Server::Net {
     page->open = false;
     page->news.cancel();
     pages_.erase(client);
+    audience_.left(client);
   }
 
   net::awaitable<void> read(Client client, std::shared_ptr<Page> page) {

@@ -19,6 +19,7 @@ namespace voxmelt::view {
 struct Audience {
   std::function<void(Client)> came;
   std::function<void(Client, std::string line)> said;
+  std::function<void(Client)> left;
 };
 
 class Server {

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "app/view/encode.h"
+#include "app/view/texture_message.h"
 
 namespace voxmelt::view {
 namespace {
@@ -25,6 +26,7 @@ using json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kFastest = 1000, kMostSteps = 100'000;
 constexpr int kSmallest = 64, kWidest = 3840, kHighest = 2160;
+constexpr double kMostVersion = INT32_MAX;
 constexpr std::size_t kMostOrders = 10'000;  // beyond it pages are not heard
 
 double since(Clock::time_point begin) {
@@ -112,14 +114,16 @@ void Session::stop() {
   something_.notify_all();
 }
 
-void Session::say(Client client, std::string line) {
+void Session::put(Order order) {
   const std::lock_guard lock(mutex_);
-  if (orders_.size() >= kMostOrders) return;
-  orders_.push_back({client, std::move(line)});
+  if (order.kind == Order::Kind::said && orders_.size() >= kMostOrders) return;
+  orders_.push_back(std::move(order));
   something_.notify_all();
 }
 
-void Session::come(Client client) { say(client, {}); }
+void Session::say(Client client, std::string line) { put({client, std::move(line)}); }
+void Session::come(Client client) { put({client, {}, Order::Kind::came}); }
+void Session::leave(Client client) { put({client, {}, Order::Kind::left}); }
 
 // Pictures of what moves are fast, those of what rests normal, and the best ones if somebody asks.
 bool Session::wait() {
@@ -140,12 +144,14 @@ void Session::run() {
     const std::uint32_t count = playing_ ? speed_ : std::min(single_, speed_);
     if (count > 0) step(count);
     single_ -= std::min(single_, count);
-    if (stale_ || (best_ && drawn_ != Quality::best)) draw();
+    if (stale_ || (best_ && drawn_ != Quality::best)) show();
   }
 }
 
 void Session::obey(const Order& order) {
-  if (order.line.empty()) {
+  if (order.kind == Order::Kind::left) return painters_.leave(order.client);
+  if (order.kind == Order::Kind::came) {
+    painters_.come(order.client);
     tell_world(order.client);
     stale_ = true;
     return;
@@ -196,6 +202,12 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
   } else if (word == "best") {
     numbers(rest, 0);
     best_ = true;
+  } else if (word == "exact") {
+    painters_.want_exact(client, whole(numbers(rest, 1)[0], 0, 1) == 1);
+    stale_ = true;
+  } else if (word == "textures") {
+    painters_.ask(client, static_cast<std::uint64_t>(whole(numbers(rest, 1)[0], 0, kMostVersion)));
+    send_textures();
   } else if (word == "change") {
     change(rest);
   } else if (word == "save") {
@@ -280,38 +292,58 @@ Picture Session::picture(Quality quality) const {
   return result;
 }
 
+void Session::show() {
+  painters_.note_news();
+  send_textures();
+  if (painters_.draw_exact()) draw();
+  if (!painters_.draw_exact()) best_ = false;
+  stale_ = false;
+}
+
+void Session::send_textures() {
+  painters_.serve([&](Client client, std::uint64_t held) {
+    const Clock::time_point begin = Clock::now();
+    const Textures textures = simulation_.textures(held);
+    last_.draw = since(begin);
+    const Clock::time_point found = Clock::now();
+    const std::string bytes = packed(textures);
+    last_.encode = since(found);
+    send_(client, binary(Message::Kind::textures, header("textures", Quality::normal, !moving()), bytes));
+  });
+}
+
 void Session::draw() {
-  const bool moving = playing_ || single_ > 0;
-  const Quality quality = moving ? Quality::fast : best_ && !stale_ ? Quality::best : Quality::normal;
+  const bool fast = moving();
+  const Quality quality = fast ? Quality::fast : best_ && !stale_ ? Quality::best : Quality::normal;
   const Clock::time_point begin = Clock::now();
   const Frame frame = simulation_.render(picture(quality));
   last_.draw = since(begin);
   const Clock::time_point drawn = Clock::now();
-  const std::string image = moving ? jpeg_of(frame) : png_of(frame);
+  const std::string image = fast ? jpeg_of(frame) : png_of(frame);
   last_.encode = since(drawn);
-  const std::string head = header(frame, quality, !moving);
-  send_({}, binary(Message::Kind::frame, head, image));
-  if (quality == Quality::best || moving) best_ = false;
+  const MessagePtr message = binary(Message::Kind::frame, header("frame", quality, !fast), image);
+  for (const Client client : painters_.exact_pages()) send_(client, message);
+  if (quality == Quality::best || fast) best_ = false;
   drawn_ = quality;
-  stale_ = false;
 }
 
-std::string Session::header(const Frame& frame, Quality quality, bool exact) const {
+std::string Session::header(const char* type, Quality quality, bool exact) const {
   const Camera camera = simulation_.camera(picture(quality));
   const State state = simulation_.state();
-  json head{{"type", "frame"},
+  json head{{"type", type},
             {"step", simulation_.steps_done()},
             {"playing", playing_},
             {"speed", speed_},
             {"quality", name_of(quality)},
             {"exact", exact},
-            {"size", {frame.width, frame.height}},
+            {"size", {width_, height_}},
             {"camera",
              {{"azimuth", camera.azimuth},
               {"elevation", camera.elevation},
               {"distance", camera.distance},
               {"target", array_of(camera.target)},
-              {"field_of_view", camera.field_of_view}}},
+              {"field_of_view", camera.field_of_view},
+              {"parallel", camera.projection == Projection::orthographic}}},
             {"solid", state.solid.count()},
             {"liquid", state.liquid.count()},
             {"ms", {{"step", last_.step}, {"draw", last_.draw}, {"encode", last_.encode}}}};

@@ -6,7 +6,7 @@
 //   play 0|1            step N               speed N (steps a frame, 1..1000)      restart
 //   camera AZIMUTH ELEVATION DISTANCE X Y Z  home                  size WIDTH HEIGHT
 //   best                                     change KEY NUMBER ... (see change.h)  pick X Y
-//   save checkpoint|journal
+//   save checkpoint|journal                  exact 0|1 (frames are wanted)         textures HELD (painters.h)
 //
 // It gets frames, files, and answers of one line of JSON with a "type". A line that is wrong gets a
 // "refused", and changes nothing.
@@ -23,17 +23,17 @@
 #include <utility>
 #include <vector>
 
+#include "app/view/client.h"
 #include "app/view/journal.h"
+#include "app/view/painters.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt::view {
 
-using Client = std::uint64_t;
-
-// Holds what a page gets. Frames and files are binary: the length of a header in four bytes, little-endian,
-// the header in JSON, and the picture, PNG or JPEG, or what the file holds.
+// Holds what a page gets. Frames, textures and files are binary: the length of a header in four bytes,
+// little-endian, the header in JSON, and the picture, PNG or JPEG, or what the file holds.
 struct Message {
-  enum class Kind { text, frame, file };
+  enum class Kind { text, frame, textures, file };
   std::string bytes;
   Kind kind = Kind::text;
 };
@@ -57,16 +57,20 @@ class Session {
   void stop();
   void say(Client client, std::string line);
   void come(Client client);  // a page has come, and is told everything
+  void leave(Client client);
 
  private:
   struct Order {
+    enum class Kind { said, came, left };
     Client client;
-    std::string line;  // empty: it has come
+    std::string line;
+    Kind kind = Kind::said;
   };
   struct Milliseconds {
     double step = 0, draw = 0, encode = 0;
   };
 
+  void put(Order order);
   bool wait();  // for something to do; false after stop()
   void obey(const Order& order);
   void obey(Client client, std::string_view word, std::string_view rest);
@@ -74,8 +78,11 @@ class Session {
   void restart();
   void write_down(const Change& change);
   void step(std::uint32_t count);
+  void show();  // to all pages, by their painters
   void draw();
-  std::string header(const Frame& frame, Quality quality, bool exact) const;
+  void send_textures();
+  bool moving() const { return playing_ || single_ > 0; }
+  std::string header(const char* type, Quality quality, bool exact) const;
   void tell_world(std::optional<Client> client);
   void tell(std::optional<Client> client, std::string text);
   void pick(Client client, int x, int y);
@@ -94,6 +101,7 @@ class Session {
   std::uint32_t speed_ = 3, single_ = 0;  // steps a frame; steps that are still asked for
   int width_ = 640, height_ = 480;
   std::optional<Camera> camera_;
+  Painters painters_;
   bool stale_ = true;  // the last frame shows something else
   Quality drawn_ = Quality::fast;
   bool best_ = false;  // the best picture was asked for

@@ -25,6 +25,7 @@
 #include "voxmelt/picture.h"
 #include "voxmelt/sources.h"
 #include "voxmelt/state.h"
+#include "voxmelt/textures.h"
 
 /// This namespace has everything that voxmelt offers to other programs.
 namespace voxmelt {
@@ -189,6 +190,12 @@ class Simulation {
   /// @throws InputError for numbers out of their range, and for a pixel beyond the picture
   /// @throws ResourceError when memory runs out
   std::optional<Hit> pick(int x, int y, const Picture& picture = {});
+  /// Returns everything that a picture of the state is drawn from, for programs that draw by a graphics
+  /// processor. Only those bricks are listed that have changed since `version`, which an earlier call gave.
+  /// Use 0 if there was no call. Bytes are valid until the next call that is not const.
+  /// @throws InputError for grids of more than 1024 cells along a side, or 2^25 in all
+  /// @throws ResourceError when memory runs out
+  Textures textures(std::uint64_t version = 0);
   /// Draws the state into a PNG file, with the bytes of render().
   /// @throws InputError for numbers out of their range
   /// @throws OutputError where the file cannot be written

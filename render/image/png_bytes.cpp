@@ -6,17 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <memory>
-#include <new>
 #include <string_view>
 #include <vector>
+
+#include "render/image/zlib_bytes.h"
 
 namespace voxmelt::render {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr int kLevel = 1;  // higher levels save a few percent and take up to twice as long
 
 void append_number(std::string& text, std::uint32_t number) {
   for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xFF);
@@ -27,20 +25,6 @@ void append_chunk(std::string& file, std::string_view name, std::string_view dat
   const std::size_t begin = file.size();
   file.append(name).append(data);
   append_number(file, libdeflate_crc32(0, file.data() + begin, file.size() - begin));
-}
-
-struct Free {
-  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-};
-
-// Packs bytes into zlib's format.
-std::string packed(const Bytes& bytes) {
-  const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(kLevel));
-  if (!compressor) throw std::bad_alloc();
-  std::string text(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  text.resize(
-      libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), text.data(), text.size()));
-  return text;
 }
 
 // Writes the differences of two rows. Returns the sum of their magnitudes, which predicts well how they pack.
@@ -85,7 +69,7 @@ std::string file_bytes(const Format& format, bool colors, const ReadRow& read_ro
     to[0] = take_up ? 2 : 1;
     if (take_up) std::copy(by_above.begin(), by_above.end(), to + 1);
   }
-  append_chunk(file, "IDAT", packed(filtered));
+  append_chunk(file, "IDAT", zlib_bytes({reinterpret_cast<const char*>(filtered.data()), filtered.size()}));
   append_chunk(file, "IEND", {});
   return file;
 }

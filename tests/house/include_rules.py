@@ -45,6 +45,7 @@ ALLOWED = {
     "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
     "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
                       "render/light", "render/ground", "render/brick"],
+    "render/textures": [PICTURE, "render/density", "render/packet"],
     "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", f"{STATE}/volume.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],
     "render/visibility": [VISIBILITY],
@@ -89,7 +90,7 @@ ALLOWED = {
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
-                "render/image", "render/packet", f"{PICTURE}/camera.h"],
+                "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
     "app/view": ["app", "include/voxmelt", "render/image"],

@@ -1,6 +1,7 @@
 // The page talks to the server in lines of text, and shows the frames that come back.
 import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
 import { Ball } from "/ball.js";
+import { OwnPainter } from "/own_painter.js";
 import { Panel } from "/panel.js";
 
 const byId = (id) => document.getElementById(id);
@@ -11,11 +12,12 @@ let socket = null, wait = 500;
 const say = (line) => { if (socket?.readyState === WebSocket.OPEN) socket.send(line); };
 const change = (key, ...numbers) => say(["change", key, ...numbers].join(" "));
 const panel = new Panel(say, change);
+const own = new OwnPainter(say, () => ({ camera: camera(), ...state.size }), (head) => seen(head));
 
 function connect() {
   socket = new WebSocket(`ws://${location.host}/socket`);
   socket.binaryType = "arraybuffer";
-  socket.onopen = () => { wait = 500; byId("notice").textContent = ""; size(); };
+  socket.onopen = () => { wait = 500; byId("notice").textContent = ""; size(); own.meet(); };
   socket.onmessage = (event) => (typeof event.data === "string" ? hear(JSON.parse(event.data)) : show(event.data));
   socket.onclose = () => {
     byId("notice").textContent = "The server is not there. This page asks for it again until it is.";
@@ -45,19 +47,26 @@ async function show(bytes) {
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
   if (head.type === "file") return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
+  if (head.type === "textures") return own.take(head, new Uint8Array(bytes, 4 + length));
   const type = head.exact ? "image/png" : "image/jpeg";
   const picture = await createImageBitmap(new Blob([new Uint8Array(bytes, 4 + length)], { type }));
   if (canvas.width !== picture.width || canvas.height !== picture.height)
     Object.assign(canvas, { width: picture.width, height: picture.height });
   canvas.getContext("2d").drawImage(picture, 0, 0);
   picture.close();
+  canvas.dataset.quality = head.quality;
+  seen(head);
+  own.takeExact(head, canvas);
+}
+
+// The facts of a frame, or of textures.
+function seen(head) {
   const now = performance.now();
   state.times = [...state.times.filter((t) => now - t < 2000), now];
   state.head = head;
   state.camera = head.camera;
-  if (!pointers.size) state.own = null;
+  if (!pointers.size && (!own.on || shows(head.camera, state.own))) state.own = null;
   canvas.dataset.step = head.step;
-  canvas.dataset.quality = head.quality;
   canvas.dataset.digest = head.digest ?? "";
   panel.showFrame(head, state.times.length / 2);
   drawHandles();
@@ -67,6 +76,9 @@ async function show(bytes) {
 // The camera that the hand has set, until a frame shows it.
 const camera = () => state.own ?? state.camera;
 const ball = new Ball(canvas, handles, camera, say, change);
+// The server rounds a distance to 4096ths.
+const shows = (a, b) => !b || (a.azimuth === b.azimuth && a.elevation === b.elevation &&
+  Math.abs(a.distance - b.distance) < 0.001 && a.target.every((v, i) => v === b.target[i]));
 let cameraAsked = false;
 function look(next) {
   state.own = next;
@@ -75,6 +87,7 @@ function look(next) {
   requestAnimationFrame(() => {
     cameraAsked = false;
     const c = state.own;
+    drawHandles();
     if (c) say(["camera", c.azimuth, c.elevation, c.distance, ...c.target].join(" "));
   });
 }
@@ -83,7 +96,8 @@ function size() {
   const box = byId("stage").getBoundingClientRect(), most = 1280;
   const scale = Math.min(1, most / Math.max(box.width, box.height, 1));
   const side = (v) => Math.max(64, Math.round(v * scale));
-  say(`size ${side(box.width)} ${side(box.height)}`);
+  state.size = { width: side(box.width), height: side(box.height) };
+  say(`size ${state.size.width} ${state.size.height}`);
 }
 new ResizeObserver(() => size()).observe(byId("stage"));
 
@@ -228,7 +242,7 @@ function holdSource(event, i, shapes) {
 // --- What can be kept ---
 
 byId("save-picture").addEventListener("click", () =>
-  canvas.toBlob((blob) => download(`${state.world.scene}-${String(state.head.step).padStart(6, "0")}.png`, blob)));
+  (own.on ? own.canvas : canvas).toBlob((blob) => download(`${state.world.scene}-${String(state.head.step).padStart(6, "0")}.png`, blob)));
 byId("save-checkpoint").addEventListener("click", () => say("save checkpoint"));
 byId("save-journal").addEventListener("click", () => say("save journal"));
 
@@ -262,6 +276,8 @@ addEventListener("keydown", (event) => {
   else if (event.key === ".") byId("single").click();
   else if (event.key === "r") byId("restart").click();
   else if (event.key === "h") { state.own = null; byId("home").click(); }
+  else if (event.key === "t") own.toggle();
+  else if (event.key === "d") own.toggleDifference();
   else if (event.key === "b") byId("best").click();
   else if (event.key === "p") byId("pour").click();
   else if (event.key === "c") byId("carve").click();
