@@ -9,7 +9,7 @@
 It wants a standing build: `cmake --build --preset release --target voxmelt-measure kernel_scalar_test kernel_rule_test`.
 A rule is taken out of the reference by one exact replacement, which is built as an overlay (tests/overlay.py).
 First `voxmelt accuracy --quick` runs the rule's own cases, then all of plan.toml, then tests that hold a property,
-until a gate fails that the unchanged program passes. What was found lies in --out.
+until a gate fails that the unchanged program passes. What was found is kept in results.json beside this file.
 """
 import argparse
 import hashlib
@@ -30,6 +30,7 @@ from overlay import ROOT, Build, Overlay, commit, misfit, run
 
 KEYS = {"name", "says", "file", "before", "after", "cases", "tests", "alone", "verdict"}
 MEASURE = "app/voxmelt-measure"
+RESULTS = HERE / "results.json"
 WHOLE_TESTS = "tests/kernel/kernel_scalar_test"  # none of its own sources holds a rule
 RULE_TESTS = "tests/kernel/kernel_rule_test"  # has no other code than its own sources
 
@@ -178,24 +179,24 @@ def judge(build, rule, sound, plan, before, options):
     folder = options.out / "work"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    result = {"missed": [], "tests": "", "error": "", "ran": list(before)}
+    ran, missed, test, problem = list(before), [], "", ""
     cases, tests = runs_of(rule, plan)
     try:
         overlay = Overlay(build, rule, folder, options.optimise)
         for each in [each for each in cases + tests if each not in before]:
             if each in cases:
-                result["missed"] = missed_rows(overlay.link(MEASURE), each, sound, folder)
+                missed = missed_rows(overlay.link(MEASURE), each, sound, folder)
             elif sound.test_passes(each):
-                result["tests"] = failing_test(overlay.link(target_of(each)), each, plan["longest_test"])
+                test = failing_test(overlay.link(target_of(each)), each, plan["longest_test"])
             else:
                 raise RuntimeError(f"{each} fails with the rule, too")
-            result["ran"].append(each)
-            if result["missed"] or result["tests"]:
+            ran.append(each)
+            if missed or test:
                 break
     except RuntimeError as error:
-        result["error"] = str(error)[:300]
-    result["seconds"] = round(time.monotonic() - begin, 1)
-    return result
+        problem = str(error)[:300]
+    return {"found": "gate" if missed else "test" if test else "", "cells": table.cells(missed, test), "error": problem,
+            "ran": ran, "seconds": round(time.monotonic() - begin, 1)}
 
 
 def key_of(rule):
@@ -218,7 +219,7 @@ def holds(rule, plan, result):
     """Tells if nothing is left to run."""
     if not is_of(rule, result):
         return False
-    return bool(result["missed"] or result["tests"]) or set(sum(runs_of(rule, plan), [])) <= set(result["ran"])
+    return bool(result["found"]) or set(sum(runs_of(rule, plan), [])) <= set(result["ran"])
 
 
 def main():
@@ -231,7 +232,7 @@ def main():
     parser.add_argument("--again", action="store_true", help="also run what has a result")
     parser.add_argument("--minutes", type=float, default=0, help="begin no rule after so long; 0: no limit")
     parser.add_argument("--optimise", default="-O2", help="how the overlays are compiled")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/without", help="folder of the results")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/without", help="where it works")
     options = parser.parse_args()
 
     if options.self_test:
@@ -242,8 +243,8 @@ def main():
     options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
     build = Build(options.build, library_of(plan["compiles"]), bare={MEASURE, WHOLE_TESTS})
-    sound, store = Sound(build, plan, options.out), options.out / "results.json"
-    results = json.loads(store.read_text()) if store.exists() else {}
+    sound = Sound(build, plan, options.out)
+    results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
     now, begin = commit(), time.monotonic()
     for rule in rules:
         late = options.minutes and time.monotonic() - begin > 60 * options.minutes
@@ -254,7 +255,7 @@ def main():
         before = [] if options.again else ran_before(rule, results.get(rule["name"]))
         result = judge(build, rule, sound, plan, before, options) | {"commit": now, "key": key_of(rule)}
         results[rule["name"]] = result
-        store.write_text(json.dumps(results, indent=1))
+        RESULTS.write_text(table.stored(rules, results))
         print(f"{rule['name']}: {table.verdict(result)} ({result['seconds']} s)", flush=True)
     current = {r["name"]: results[r["name"]] | {"whole": holds(r, plan, results[r["name"]])} for r in rules
                if is_of(r, results.get(r["name"]))}

@@ -1,4 +1,5 @@
 """The page of rules: which gate fails without each, and which rules no gate needs."""
+import json
 
 HEAD = """<!-- Written by tests/accuracy/without/run.py -->
 # What each rule of the viscous law is for
@@ -35,22 +36,28 @@ def gate(row):
     return f"{100 * row['gate']:.3g} %" if row["error_is"] == "relative" else number(row["gate"])
 
 
-def cells(result):
-    """The last four cells of a line of the table."""
-    if result["missed"]:
-        row = max(result["missed"], key=size)
+def cells(missed, test):
+    """The last four cells of a line of the table, by the rows that a gate missed, or the test that failed."""
+    if missed:
+        row = max(missed, key=size)
         if "ends" in row:
             return f"the program {row['ends']} | | | `{row['case']}` "
-        more = len(result["missed"]) - 1
+        more = len(missed) - 1
         of = f", and {more} more" if more else ""
         return (f"{row['setting']}: {row['quantity']}{of} | {error(row, 'error')} (with it {error(row, 'with')}) "
                 f"| {gate(row)} | `{row['case']}` ")
-    program, _, test = result["tests"].partition(" ")
+    program, _, test = test.partition(" ")
     return f"{test} | | | `{program}` " if test else "**no gate needs it** | | | "
 
 
 def verdict(result):
-    return "error: " + result["error"] if result["error"] else cells(result).replace("|", "").strip()
+    return "error: " + result["error"] if result["error"] else result["cells"].replace("|", "").strip()
+
+
+def stored(rules, results):
+    """The text of what is kept: a line for each rule, in the order of the page."""
+    lines = [f"{json.dumps(r['name'])}: {json.dumps(results[r['name']])}" for r in rules if r["name"] in results]
+    return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
 def short(run):
@@ -61,16 +68,16 @@ def short(run):
 
 def page(rules, results):
     ran = [r for r in rules if r["name"] in results]
-    found = [r for r in ran if results[r["name"]]["missed"] or results[r["name"]]["tests"]]
+    found = [r for r in ran if results[r["name"]]["found"]]
     needless = [r for r in ran if r not in found and results[r["name"]]["whole"]]
-    by_gate = sum(bool(results[r["name"]]["missed"]) for r in found)
+    by_gate = sum(results[r["name"]]["found"] == "gate" for r in found)
     commits = sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})
     lines = [HEAD, f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs",
              f"{len(needless)}. For {len(rules) - len(found) - len(needless)} not all has run yet. Commits of the runs: {', '.join(commits)}."]
     for section in sorted({r["section"] for r in found}):
         lines += ["", f"## Section {section}", "", "| rule | what it says | without it: the gate that fails | error | gate | case or test |",
                   "|---|---|---|---|---|---|"]
-        lines += [f"| {r['name']} | {r['says'].replace('|', '/')} | {cells(results[r['name']])}|" for r in found if r["section"] == section]
+        lines += [f"| {r['name']} | {r['says'].replace('|', '/')} | {results[r['name']]['cells']}|" for r in found if r["section"] == section]
     head = ["", "| rule | what it says | what passes without it | what to do |", "|---|---|---|---|"]
     line = lambda r: (f"| {r['name']} | {r['says'].replace('|', '/')} | {', '.join(map(short, results.get(r['name'], {}).get('ran', []))) or '-'} "
                       f"| {r.get('verdict', '')} |")
