@@ -79,8 +79,11 @@ struct PointSource {
 struct SphereSource {
   static constexpr bool kTurns = true;
   // By rounding, a place on the sphere's disc may be a little farther out than its radius (docs/proofs.md).
+  VOXMELT_RULE static std::int64_t reach(const SourceKey& source) {
+    return source.radius + source.radius / 8 + 1;
+  }
   VOXMELT_RULE static bool may_look(const SourceKey& source, const Face& face, int coordinate) {
-    return may_reach(source, face, coordinate, source.radius + source.radius / 8 + 1);
+    return may_reach(source, face, coordinate, reach(source));
   }
   VOXMELT_RULE static void prepare(Sight& sight) {
     if (squared(sight.delta) > 0) sight.axes = disc_axes(sight.delta);

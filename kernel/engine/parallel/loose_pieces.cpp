@@ -24,17 +24,7 @@ bool is_clear(Words words) {
   return std::ranges::all_of(words, [](std::uint64_t word) { return word == 0; });
 }
 
-// Is a set of cells of a row, x0 <= x < x1, that are all loose.
-struct Run {
-  int x0, x1, y, z;
-  std::size_t piece;  // index of a run of the same piece; of itself at its root
-};
-
-std::size_t root_of(std::vector<Run>& runs, std::size_t i) {
-  while (runs[i].piece != i) i = runs[i].piece = runs[runs[i].piece].piece;
-  return i;
-}
-
+template <class Run>
 void append_runs(Words row, int y, int z, std::vector<Run>& runs) {
   bool goes_on = false;  // the last run reaches the end of the word before
   for (std::size_t w = 0; w < row.size(); ++w) {
@@ -51,42 +41,6 @@ void append_runs(Words row, int y, int z, std::vector<Run>& runs) {
   }
 }
 
-// Joins the runs of two rows that touch. Both are in order.
-void join(std::vector<Run>& runs, std::size_t a, std::size_t a_end, std::size_t b, std::size_t b_end) {
-  while (a < a_end && b < b_end) {
-    if (runs[a].x0 < runs[b].x1 && runs[b].x0 < runs[a].x1) {
-      const std::size_t one = root_of(runs, a), other = root_of(runs, b);
-      runs[std::max(one, other)].piece = std::min(one, other);
-    }
-    if (runs[a].x1 < runs[b].x1)
-      ++a;
-    else
-      ++b;
-  }
-}
-
-// Finds the runs of all loose cells, [z][y], and joins those of a piece.
-std::vector<Run> runs_of(const state::BitPlane& loose, state::Grid grid) {
-  std::vector<Run> runs;
-  std::vector<std::size_t> below(static_cast<std::size_t>(grid.y) + 1), here(below.size());  // of a slice
-  for (int z = 0; z < grid.z; ++z) {
-    if (is_clear(slice_of(loose, grid, z))) {
-      std::ranges::fill(below, runs.size());
-      continue;
-    }
-    for (int y = 0; y < grid.y; ++y) {
-      const auto at = static_cast<std::size_t>(y);
-      here[at] = runs.size();
-      append_runs(loose.row(y, z), y, z, runs);
-      here[at + 1] = runs.size();
-      if (y > 0) join(runs, here[at - 1], here[at], here[at], here[at + 1]);
-      if (z > 0) join(runs, below[at], below[at + 1], here[at], here[at + 1]);
-    }
-    below.swap(here);
-  }
-  return runs;
-}
-
 struct Layer {
   std::int64_t cells = 0, open = 0, full = 0, feet = 0, wet = 0;
   Layer& operator+=(const Layer& other) {
@@ -99,6 +53,7 @@ struct Layer {
   }
 };
 
+template <class Run>
 Layer look(const state::Volume& volume, const Run& run) {
   constexpr std::uint16_t kHalf = 2048;
   const state::Grid grid = volume.grid;
@@ -143,39 +98,122 @@ void put(Value& to, Value value) {  // writes memory only if something changes
 
 }  // namespace
 
-// Compares the solids with those known to be held. It tells if the change may have parted a piece.
-bool LoosePieces::may_part(const state::Volume& volume) {
-  const state::Grid grid = volume.grid;
-  const std::size_t row_words = known_.row_words();
+std::size_t LoosePieces::root_of(std::vector<Run>& runs, std::size_t i) {
+  while (runs[i].piece != i) i = runs[i].piece = runs[runs[i].piece].piece;
+  return i;
+}
+
+// Joins the runs of two rows that touch. Both are in order.
+void LoosePieces::join(std::vector<Run>& runs, std::size_t a, std::size_t a_end, std::size_t b,
+                       std::size_t b_end) {
+  while (a < a_end && b < b_end) {
+    if (runs[a].x0 < runs[b].x1 && runs[b].x0 < runs[a].x1) {
+      const std::size_t one = root_of(runs, a), other = root_of(runs, b);
+      runs[std::max(one, other)].piece = std::min(one, other);
+    }
+    if (runs[a].x1 < runs[b].x1)
+      ++a;
+    else
+      ++b;
+  }
+}
+
+// Finds the runs of a set of cells, [z][y], and joins those of a piece.
+std::vector<LoosePieces::Run> LoosePieces::runs_of(const state::BitPlane& solids, state::Grid grid) {
+  std::vector<Run> runs;
+  std::vector<std::size_t> below(static_cast<std::size_t>(grid.y) + 1), here(below.size());  // of a slice
   for (int z = 0; z < grid.z; ++z) {
-    const Words now = slice_of(volume.solid, grid, z), before = slice_of(known_, grid, z);
+    if (is_clear(slice_of(solids, grid, z))) {
+      std::ranges::fill(below, runs.size());
+      continue;
+    }
+    for (int y = 0; y < grid.y; ++y) {
+      const auto at = static_cast<std::size_t>(y);
+      here[at] = runs.size();
+      append_runs(solids.row(y, z), y, z, runs);
+      here[at + 1] = runs.size();
+      if (y > 0) join(runs, here[at - 1], here[at], here[at], here[at + 1]);
+      if (z > 0) join(runs, below[at], below[at + 1], here[at], here[at + 1]);
+    }
+    below.swap(here);
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].piece = root_of(runs, i);
+  return runs;
+}
+
+// Takes from the held solids those that have gone. It tells if the others are held for sure.
+bool LoosePieces::still_hold(const state::Volume& volume) {
+  const state::Grid grid = volume.grid;
+  const std::size_t row_words = held_.row_words();
+  for (int z = 0; z < grid.z; ++z) {
+    const Words now = slice_of(volume.solid, grid, z), before = slice_of(held_, grid, z);
     if (std::ranges::equal(now, before)) continue;  // fast, and true of most slices in each step
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now[i] == before[i]) continue;
-      if ((now[i] & ~before[i]) != 0) return true;  // a solid is new
+      rest_ |= (now[i] & ~before[i]) != 0;
       const int y = static_cast<int>(i / row_words), word = static_cast<int>(i % row_words);
       for (std::uint64_t gone = before[i] & ~now[i]; gone != 0; gone &= gone - 1) {
         const int x = 64 * word + std::countr_zero(gone);
-        known_.set(x, y, z, false);
-        if (!is_locally_one(known_, volume.inert, grid, x, y, z)) return true;
+        held_.set(x, y, z, false);
+        if (!is_locally_one(held_, volume.inert, grid, x, y, z)) return false;
       }
     }
   }
+  return true;
+}
+
+// Searches all solids.
+void LoosePieces::search(const state::Volume& volume) {
+  ++searches_;
+  const state::BitPlane loose = state::loose_solids(volume);
+  held_ = volume.solid;
+  inert_ = volume.inert;
+  rest_ = false;
+  loose_.clear();
+  if (is_clear(loose.words())) return;
+  rest_ = true;
+  std::uint64_t* const held = held_.data();
+  const Words words = loose.words();
+  for (std::size_t i = 0; i < words.size(); ++i) put(held[i], held[i] & ~words[i]);
+  loose_ = runs_of(loose, volume.grid);
+}
+
+bool LoosePieces::touches_held(const state::Volume& volume, const Run& run) const {
+  const auto holds = [&](int x, int y, int z) {
+    return volume.grid.contains(x, y, z) && (held_.test(x, y, z) || volume.inert.test(x, y, z));
+  };
+  if (run.y == 0 || holds(run.x0 - 1, run.y, run.z) || holds(run.x1, run.y, run.z)) return true;
+  for (int x = run.x0; x < run.x1; ++x)
+    if (holds(x, run.y - 1, run.z) || holds(x, run.y + 1, run.z) || holds(x, run.y, run.z - 1) ||
+        holds(x, run.y, run.z + 1))
+      return true;
   return false;
+}
+
+// Finds which of the solids that were not held are held now.
+void LoosePieces::look_at_the_rest(const state::Volume& volume) {
+  state::BitPlane rest = volume.solid;
+  const Words held = held_.words();
+  for (std::size_t i = 0; i < held.size(); ++i) put(rest.data()[i], rest.data()[i] & ~held[i]);
+  loose_ = runs_of(rest, volume.grid);
+  std::vector<char> lands(loose_.size(), 0);  // by the first run of a piece
+  for (const Run& run : loose_)
+    if (lands[run.piece] == 0 && touches_held(volume, run)) lands[run.piece] = 1;
+  const auto landed = [&](const Run& run) { return lands[run.piece] != 0; };
+  for (const Run& run : loose_)
+    for (int x = run.x0; landed(run) && x < run.x1; ++x) held_.set(x, run.y, run.z, true);
+  std::erase_if(loose_, landed);
 }
 
 const state::ChangedRows& LoosePieces::fall(const FallOfPieces& how, std::uint32_t step,
                                             state::Volume& volume) {
   changed_.clear();
-  if (!known_.empty() && volume.inert == inert_ && !may_part(volume)) return changed_;
-  ++searches_;
-  loose_ = state::loose_solids(volume);
-  if (is_clear(loose_.words())) {
-    known_ = volume.solid;
-    inert_ = volume.inert;
-    return changed_;
-  }
-  known_ = {};
+  rest_ = false;
+  if (held_.empty() || volume.inert != inert_ || !still_hold(volume))
+    search(volume);
+  else if (rest_)
+    look_at_the_rest(volume);
+  if (!rest_ || loose_.empty()) return changed_;
   mark_moving(how, step, volume);
   turn_columns(volume);
   return changed_;
@@ -183,8 +221,7 @@ const state::ChangedRows& LoosePieces::fall(const FallOfPieces& how, std::uint32
 
 void LoosePieces::mark_moving(const FallOfPieces& how, std::uint32_t step, const state::Volume& volume) {
   moving_ = state::BitPlane(volume.grid);
-  std::vector<Run> runs = runs_of(loose_, volume.grid);
-  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].piece = root_of(runs, i);
+  std::vector<Run>& runs = loose_;
   std::sort(runs.begin(), runs.end(),
             [](const Run& a, const Run& b) { return a.piece != b.piece ? a.piece < b.piece : a.y < b.y; });
   std::vector<Layer> layers;

@@ -12,7 +12,7 @@ constexpr std::int64_t kFewEmptied = 16;  // 1/16 of the bricks that held someth
 void Gaps::update(const Opaque& opaque, const Opaque::News& news) {
   emptied_ += news.emptied;
   const std::size_t bricks = opaque.bricks().cells();
-  if (!news.appeared && sides_[0].size() == bricks && kFewEmptied * emptied_ <= filled_) return;
+  if (news.filled == 0 && sides_[0].size() == bricks && kFewEmptied * emptied_ <= filled_) return;
   emptied_ = filled_ = 0;
   for (std::size_t brick = 0; brick < bricks; ++brick) filled_ += opaque.empty(brick) ? 0 : 1;
   for (std::size_t octant = 0; octant < sides_.size(); ++octant) {

@@ -7,6 +7,7 @@
 #include "kernel/automaton/rule/ray.h"
 #include "kernel/automaton/rule/source.h"
 #include "kernel/automaton/rule/visibility.h"
+#include "kernel/engine/visibility/beam.h"
 #include "kernel/engine/visibility/renewal.h"
 
 namespace voxmelt::visibility {
@@ -187,11 +188,21 @@ void KeptRays::renew(Band& band, std::size_t s, const Surface& surface, Renewal&
     own = {};
   }
   if (dark) return;
-  if (news_.appeared) std::ranges::replace(own.fates, kSees, kDark);  // what saw may have something before it
+  if (news_.appeared) doubt(band, source, own);
   find(band, surface, source.still && band.kept, own, found);
   if (!source.steady)
     for (Lit& lit : own.cells) lit.value = kStale;
   cast(band, s, found);
+}
+
+// A ray that saw its source may no longer see it, where something appeared.
+void KeptRays::doubt(const Band& band, const Source& source, LitCells& own) const {
+  const Beam beam(source.kind, source.now, news_.box);
+  Fate* fates = own.fates.data();
+  for (const Lit& lit : own.cells) {
+    if (beam.may_cross(cell_at(band, lit.place))) std::replace(fates, fates + lit.rays, kSees, kDark);
+    fates += lit.rays;
+  }
 }
 
 // Tells if a row of the band may have other faces than before.

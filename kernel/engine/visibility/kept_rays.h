@@ -1,5 +1,5 @@
 // This provider casts only rays that may have changed. While a source stands still, a ray that saw it sees
-// it, unless an opaque cell has appeared: then each such ray is cast anew. A dark ray stays dark while the
+// it, unless an opaque cell has appeared about its way: then it is cast anew. A dark ray stays dark while the
 // cell that it met is opaque. If a source moves, every ray is cast anew. A sky always stands still. So the
 // irradiance is the same as if all rays were cast each time, and depends on no memory.
 //
@@ -65,6 +65,7 @@ class KeptRays final : public Provider {
   void update(const state::Volume& volume, Band& band, const std::vector<Surface>& surfaces,
               state::Field<std::uint16_t>& result) const;
   void renew(Band& band, std::size_t source, const Surface& surface, Renewal& found) const;
+  void doubt(const Band& band, const Source& source, LitCells& own) const;
   bool has_new_faces(const Band& band) const;
   std::uint64_t rows_of(const Band& band, int w, bool changed) const;
   void find(const Band& band, const Surface& surface, bool still, LitCells& own, Renewal& found) const;

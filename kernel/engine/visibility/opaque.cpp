@@ -11,6 +11,14 @@ namespace {
 constexpr int kSide = state::kBrickSide;
 constexpr int kWordBricks = 64 / kSide;
 
+// Makes a box as large as it must be to hold another one, too.
+void widen(Opaque::Box& box, const Opaque::Box& other) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.low[a] = std::min(box.low[a], other.low[a]);
+    box.high[a] = std::max(box.high[a], other.high[a]);
+  }
+}
+
 }  // namespace
 
 void Opaque::resize(const state::Grid& grid) {
@@ -31,15 +39,18 @@ Opaque::News Opaque::take(const state::Volume& volume, cpu::Workers& workers) {
   if (grid_ != volume.grid) {
     resize(volume.grid);
     all.appeared = true;
+    all.filled = 1;
+    all.box = {{0, 0, 0}, {grid_.x - 1, grid_.y - 1, grid_.z - 1}};
   }
   std::vector<News> news(bricks_.z);
   workers.run(bricks_.z, [&](int layer) { news[layer] = take_layer(volume, layer); });
   seen_ = volume.changed.now();
   for (const News& more : news) {
-    all.appeared |= more.appeared;
+    if (more.appeared) note_appeared(more.box, all);
     all.vanished |= more.vanished;
     all.turned |= more.turned;
     all.emptied += more.emptied;
+    all.filled += more.filled;
   }
   return all;
 }
@@ -85,13 +96,22 @@ void Opaque::take_rows(const state::Volume& volume, int begin, int end, int z, N
     const int y = begin + static_cast<int>(w / words);
     changed_[change_word(y, z)] |= std::uint64_t{1} << (y & 63);
     changed_cells_.row(y, z)[w % words] = (was ^ is) | turned;
-    news.appeared |= (is & ~was) != 0;
+    if (const std::uint64_t now = is & ~was; now != 0) {
+      const int x = static_cast<int>(64 * (w % words));
+      note_appeared({{x + std::countr_zero(now), y, z}, {x + 63 - std::countl_zero(now), y, z}}, news);
+    }
     news.vanished |= (was & ~is) != 0;
     news.turned |= turned != 0;
     solid[w] = now_solid[w];
     opaque[w] = is;
-    write_bricks(was, is, w % words, y, z);
+    news.filled += write_bricks(was, is, w % words, y, z);
   }
+}
+
+void Opaque::note_appeared(const Box& box, News& news) {
+  if (!news.appeared) news.box = box;
+  news.appeared = true;
+  widen(news.box, box);
 }
 
 void Opaque::forget_changes(int z) {
@@ -100,14 +120,18 @@ void Opaque::forget_changes(int z) {
       std::ranges::fill(changed_cells_.row(static_cast<int>(64 * w) + std::countr_zero(rows), z), 0);
 }
 
-void Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z) {
+// Writes a word into its bricks. It returns how many of them were empty and are not.
+int Opaque::write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z) {
   const std::size_t first = bricks_.index(kWordBricks * w, y / kSide, z / kSide);
   const std::size_t row = z % kSide * kSide + y % kSide;
+  int filled = 0;
   for (std::size_t k = 0; k < kWordBricks; ++k) {
     if (((was ^ is) >> (kSide * k) & 0xff) == 0) continue;
     bytes()[((first + k) << 6) + row] = static_cast<std::uint8_t>(is >> (kSide * k));
+    filled += contents_[first + k] == kEmpty ? 1 : 0;
     contents_[first + k] = kUnknown;
   }
+  return filled;
 }
 
 // Looks into the bricks that have changed. It returns how many are empty now.

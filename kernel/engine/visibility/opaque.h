@@ -21,11 +21,16 @@ using Cell = std::array<int, 3>;
 
 class Opaque {
  public:
+  struct Box {  // holds all cells from low to high
+    Cell low{}, high{};
+  };
   struct News {
     bool appeared = false;  // a cell is opaque that was not, or the grid is another one
+    Box box;                // of what appeared
     bool vanished = false;  // a cell is no longer opaque
     bool turned = false;    // a cell is solid that was inert, or the reverse
     int emptied = 0;        // number of bricks that held something, and hold nothing any more
+    int filled = 0;  // number of bricks that held nothing, and hold something now; 1 more in another grid
     bool any() const { return appeared || vanished || turned; }
   };
   // Takes over the masks of a volume. It compares the bricks whose matter may have changed since the last
@@ -67,9 +72,10 @@ class Opaque {
   void resize(const state::Grid& grid);
   News take_layer(const state::Volume& volume, int layer);
   void forget_changes(int z);
+  static void note_appeared(const Box& box, News& news);
   bool may_differ(const state::Volume& volume, int y, int z) const;
   void take_rows(const state::Volume& volume, int begin, int end, int z, News& news);
-  void write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
+  int write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
   int look_into(int layer);
   std::size_t change_word(std::size_t y, std::size_t z) const { return z * column_words_ + y / 64; }
   std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(bits_.data()); }

@@ -106,6 +106,20 @@ TEST(Gaps, AreFoundAnewAsBricksEmpty) {
   }
 }
 
+// Another grid has as many bricks, and nothing stands in it.
+TEST(Gaps, OfAnotherGridAreFoundAnew) {
+  Volume full(Grid{16, 8, 8});
+  put_solid(full, 0, 0, 0);
+  put_solid(full, 8, 0, 0);
+  cpu::Workers workers(1);
+  Opaque opaque;
+  Gaps gaps;
+  gaps.update(opaque, opaque.take(full, workers));
+  EXPECT_EQ(gaps.at(0, 1), 0);
+  gaps.update(opaque, opaque.take(Volume(Grid{8, 16, 8}), workers));
+  for (std::size_t octant = 0; octant < 8; ++octant) EXPECT_EQ(gaps.at(octant, 1), Gaps::kEndless);
+}
+
 // The largest grid has gaps of more bricks than a byte counts.
 TEST(Gaps, OfTheLargestGrid) {
   Volume v(Grid{4096, 8, 1});

@@ -1,6 +1,7 @@
 // Casting only what changed gives the same bits in every cell as casting everything, call after call.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,7 @@ void expect_all_cast(Kept& kept, const Volume& v, const rule::Heat& heat, std::u
   ASSERT_NO_FATAL_FAILURE(expect_told(kept, before, where));
 }
 
-enum class Event { melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed };
+enum class Event { melts, appears, lands, turns, moves, dims, rests, darkens, rays, sources, seed };
 
 // Between two castings the world melts, and everything happens that a user can do.
 TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
@@ -70,8 +71,8 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
                                 ", event " + std::to_string(static_cast<int>(event));
       ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, static_cast<std::uint32_t>(call), where));
       using enum Event;
-      event = random.any(
-          {melts, melts, melts, melts, appears, turns, moves, dims, rests, darkens, rays, sources, seed});
+      event = random.any({melts, melts, melts, melts, appears, lands, lands, turns, moves, dims, rests,
+                          darkens, rays, sources, seed});
       const std::int32_t part = random.any({3, 20, 200});
       const auto n = static_cast<std::size_t>(random.below(static_cast<std::int32_t>(heat.sources.size())));
       rule::HeatSource& source = heat.sources[n];
@@ -88,6 +89,14 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
           v.inert.set(x, y, z, solid);
         }
       });
+      if (event == lands) {  // opaque cells appear in one place alone
+        const int x = random.below(v.grid.x), y = random.below(v.grid.y), z = random.below(v.grid.z);
+        const Box piece{
+            x, y, z, std::min(v.grid.x, x + 3), std::min(v.grid.y, y + 2), std::min(v.grid.z, z + 2)};
+        for_each(piece, [&](int px, int py, int pz) {
+          if (!v.solid.test(px, py, pz) && !v.inert.test(px, py, pz)) put_any(v, random, px, py, pz);
+        });
+      }
       if (event == moves) {  // or a source of another kind takes its place
         const Shine other =
             random.one_in(3) ? awkward_shine(random, v.grid) : awkward_shine(random, v.grid, source.kind);
@@ -106,6 +115,26 @@ TEST(KeptRays, OfHostileWorldsAreAsIfAllWereCast) {
     casts += kept.provider.casts();
   }
   EXPECT_LT(casts.cast, casts.asked) << "something is remembered";
+}
+
+// A cell appears in a corner that no ray comes near, and one in the way of many.
+TEST(KeptRays, CastsOnlyRaysNearWhatAppears) {
+  Volume v(Grid{64, 40, 40});
+  for_each({0, 0, 0, 64, 4, 40}, [&](int x, int y, int z) { put_solid(v, x, y, z); });
+  const rule::Heat heat = shone_by({{16 * 8, 16 * 30, 16 * 8}}, 4);
+  Kept kept{KeptRays(), {}};
+  const auto cast_after = [&](int x, int y, int z) {
+    put_inert(v, x, y, z);
+    const std::int64_t before = kept.provider.casts().cast;
+    expect_all_cast(kept, v, heat, 0, "after a cell");
+    return kept.provider.casts().cast - before;
+  };
+  ASSERT_NO_FATAL_FAILURE(expect_all_cast(kept, v, heat, 0, "at first"));
+  const std::int64_t all = kept.provider.casts().cast;
+  EXPECT_GT(all, 64 * 40 * 4 - 1);
+  EXPECT_EQ(cast_after(60, 39, 38), 0) << "above all rays";
+  EXPECT_LT(20 * cast_after(50, 6, 30), all) << "a small shadow";
+  EXPECT_GT(20 * cast_after(8, 28, 9), all) << "a large one";
 }
 
 // A ball melts from the outside, beside a wall of rock. Few rays are cast again.
