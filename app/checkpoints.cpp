@@ -33,6 +33,13 @@ Checkpoints::Checkpoints(std::filesystem::path folder, const scene::Scene& scene
                          int threads)
     : folder_(std::move(folder)), scene_(scene), text_(std::move(text)), threads_(threads) {}
 
+void Checkpoints::change_settings(std::string settings, state::Grid grid) {
+  std::vector<checkpoint::FileState> files = std::move(text_.files);
+  text_ = run::scene_text(scene_, grid);
+  text_.files = std::move(files);
+  text_.settings = std::move(settings);
+}
+
 bool Checkpoints::due(const std::optional<Interval>& interval, std::uint32_t steps_done) const {
   if (!interval) return false;
   if (interval->steps > 0) return steps_done % interval->steps == 0;

@@ -27,6 +27,9 @@ class Checkpoints {
   Checkpoints(std::filesystem::path folder, const scene::Scene& scene, checkpoint::SceneText text,
               int threads);
 
+  // Later checkpoints have other settings of the scene (TOML), and the scene's present parameters.
+  void change_settings(std::string settings, state::Grid grid);
+
   // Tells if it is time for a checkpoint, between two steps.
   bool due(const std::optional<Interval>& interval, std::uint32_t steps_done) const;
 

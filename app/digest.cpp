@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/print.h"
 #include "app/report.h"
+#include "app/run_journal.h"
 #include "app/visibility.h"
 #include "app/watch.h"
 #include "kernel/automaton/state/digest.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct DigestOptions {
   Common common;
+  std::string journal;
   std::uint32_t steps = 10, every = 0;
 };
 
@@ -36,9 +38,12 @@ int run_digest(const DigestOptions& options) {
   keep_inputs(scene, {{"--report", options.common.report}});
   check_report_place(options.common, "");
   check_steps(scene, options.steps);
+  const std::string journal_lines = journal_text(options.journal);
   run::Simulation simulation = make_simulation(scene, options.common);
+  RunJournal journal(journal_lines, options.journal, scene, simulation);
   if (options.every > 0) print_line(simulation);
   while (simulation.steps_done() < options.steps) {
+    journal.apply();
     simulation.step();
     const std::uint32_t done = simulation.steps_done();
     if (done == options.steps || (options.every > 0 && done % options.every == 0)) print_line(simulation);
@@ -63,6 +68,7 @@ void add_digest(CommandLine& program) {
   add_scene(command, options->common);
   command.option("--steps", options->steps, "steps to run").shows_default();
   command.option("--every", options->every, "also a line at step 0 and after every K steps");
+  add_journal(command, options->journal);
   add_common(command, options->common);
   add_visibility(command, options->common);
   command.runs([options] { return run_digest(*options); });

@@ -24,6 +24,7 @@
 #include "app/options.h"
 #include "app/print.h"
 #include "app/resume.h"
+#include "app/run_journal.h"
 #include "app/run_record.h"
 #include "app/run_to_end.h"
 #include "app/visibility.h"
@@ -41,6 +42,7 @@ struct RunOptions {
   std::optional<std::string> size;
   std::optional<int> fps;
   std::optional<std::string> checkpoint_every, wall_clock;
+  std::string journal;          // file; empty for none
   std::string resume;           // folder; empty for a run from the scene's beginning
   std::set<std::string> given;  // given options, among those that a resumed run may change
 };
@@ -108,7 +110,10 @@ PreparedRun prepare(const RunOptions& options) {
   record.checkpoint_every = options.checkpoint_every.value_or("");
   record.frames_per_second = options.fps.value_or(record.frames_per_second);
   record.id = by_chance();
+  record.journal = journal_text(options.journal);
+  record.journal_name = options.journal;
   const std::string place = options.out.empty() ? "out/" + scene.name : options.out;
+  if (!options.journal.empty()) scene.files.emplace_back(options.journal);
   keep_inputs(scene, {{"--out", place}, {"--report", common.report}});
   check_report_place(common, place);
   run.out = std::make_unique<io::OutputFolder>(place);
@@ -180,6 +185,7 @@ void add_run(CommandLine& program) {
                  "write a checkpoint after every N steps, or every N seconds (60s)");
   command.option("--wall-clock", options->wall_clock,
                  "end after this time (3h55m, 90s) as at a signal: with a checkpoint, and exit code 4");
+  begins(add_journal(command, options->journal));
   add_common(command, options->common);
   add_visibility(command, options->common);
   for (const char* option : {"--seed", "--set"}) begins(command.find(option));

@@ -80,6 +80,10 @@ std::string json_of(const RunRecord& record) {
                {record.seconds.update, record.seconds.render, record.seconds.encode, record.seconds.wait,
                 record.seconds.total}}};
   if (common.seed) result["seed"] = *common.seed;
+  if (!record.journal.empty()) {
+    result["journal"] = record.journal;
+    result["journal_name"] = record.journal_name;
+  }
   return result.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -106,6 +110,10 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     common.report = object.at("report").get<std::string>();
     common.quiet = object.at("quiet").get<bool>();
     if (object.contains("seed")) common.seed = whole<std::uint64_t>(object.at("seed"), "seed", file);
+    if (object.contains("journal")) {
+      record.journal = object.at("journal").get<std::string>();
+      record.journal_name = object.at("journal_name").get<std::string>();
+    }
     read_frames(object.at("frames"), record, file);
     const json& seen = object.at("watch");
     const auto seconds = object.at("seconds").get<std::vector<double>>();

@@ -21,6 +21,7 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/resume.h"
+#include "app/run_journal.h"
 #include "app/shell_word.h"
 #include "app/watch.h"
 #include "kernel/automaton/state/digest.h"
@@ -59,6 +60,7 @@ class Run {
         start_(start),
         begun_at_(run_.scene.mid_run ? run_.scene.mid_run->steps_done : 0),
         simulation_(make_simulation(run_.scene, common())),
+        journal_(record().journal, record().journal_name, run_.scene, simulation_),
         film_(std::in_place, run_.scene, out().partial(), plan()),
         checkpoints_(out().partial(), run_.scene, std::move(run_.text), thread_count(common())),
         watch_(record().seen) {
@@ -119,6 +121,7 @@ class Run {
       show(begun_at_);
     Progress progress(steps(), common().quiet, begun_at_);
     while (simulation_.steps_done() < steps() && !interrupted() && !is_late()) {
+      if (journal_.apply()) checkpoints_.change_settings(journal_.settings(), simulation_.volume().grid);
       simulation_.step();
       film_->check();
       const std::uint32_t done = simulation_.steps_done();
@@ -201,6 +204,7 @@ class Run {
   Clock::time_point start_;
   std::uint32_t begun_at_;  // steps done before
   run::Simulation simulation_;
+  RunJournal journal_;
   std::optional<Film> film_;
   Checkpoints checkpoints_;
   Watch watch_;

@@ -27,6 +27,7 @@ PURPOSES = {
     "examples": "programs of a page",
     "app": "the voxmelt program, one file per subcommand",
     "app/view": "a page in the browser",
+    "app/journal": "changes by hand, as text",
     "bench": "benchmarks and their scripts",
     "measure": "what `voxmelt bench` times and checks",
     "measure/baseline": "the paper's program, plainly written",

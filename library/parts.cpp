@@ -8,8 +8,6 @@
 #include "kernel/run/opening/checkpoint_scene.h"
 #include "kernel/run/opening/opening.h"
 #include "kernel/run/trial/fastest.h"
-#include "kernel/scene/change.h"
-#include "library/sources.h"
 
 namespace voxmelt {
 namespace {
@@ -39,7 +37,8 @@ Simulation::Parts::Parts(const std::filesystem::path& file, const Options& optio
       file_(file),
       options_(options),
       opened_(open(file, options)),
-      simulation(begin(opened_.scene)) {}
+      simulation(begin(opened_.scene)),
+      by_hand(opened_.scene, simulation) {}
 
 Simulation::Parts::Opened Simulation::Parts::open(const std::filesystem::path& file, const Options& options) {
   Opened opened;
@@ -69,17 +68,11 @@ void Simulation::Parts::restart() {
   simulation = begin(again.scene);
 }
 
-void Simulation::Parts::set(const std::string& key, double value) {
-  scene::change_key(opened_.scene, key, value, "set");
-  simulation.change_parameters(opened_.scene.parameters);
-}
-
 void Simulation::Parts::save(const std::filesystem::path& place) const {
   const state::Volume& volume = simulation.volume();
   checkpoint::SceneText text = run::scene_text(opened_.scene, volume.grid);
   if (!opened_.files.empty()) text.files = opened_.files;
-  if (sources_changed_)
-    text.settings = scene::with_lists(text.settings, library::lists_of(simulation.parameters()));
+  text.settings = by_hand.settings();
   checkpoint::Head head = run::head_of(version(), text, opened_.scene, simulation);
   head.command = "{}";  // no command runs it
   checkpoint::write(place, std::move(head), volume, simulation.irradiance(), threads);

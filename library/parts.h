@@ -10,6 +10,7 @@
 #include "kernel/run/checkpoint/checkpoint.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
+#include "library/by_hand.h"
 #include "library/version_numbers.h"
 #include "render/packet/picture.h"
 #include "render/textures/picture_textures.h"
@@ -24,18 +25,6 @@ class Simulation::Parts {
   void restart();
   void save(const std::filesystem::path& place) const;
   Changes changes(std::uint64_t since);
-
-  void set(const std::string& key, double value);
-  // Replaces one kind of source. The other kinds stay.
-  template <class Change>
-  void change_sources(const Change& change) {
-    const rule::Parameters& now = simulation.parameters();
-    run::Simulation::Sources sources{now.heat.sources, now.vents, now.drains};
-    change(sources);
-    simulation.change_sources(std::move(sources));
-    opened_.scene.parameters = simulation.parameters();
-    sources_changed_ = true;
-  }
 
   // Returns the picture of the present state. It keeps what has not changed since the last one.
   render::Picture& up_to_date();
@@ -61,10 +50,10 @@ class Simulation::Parts {
 
  public:
   run::Simulation simulation;
+  library::ByHand by_hand;
   const scene::Scene& scene() const { return opened_.scene; }
 
  private:
-  bool sources_changed_ = false;  // true once the sources differ from those in the settings
   render::Picture picture_;
   render::PictureTextures textures_;
   library::VersionNumbers versions_;

@@ -14,7 +14,6 @@
 #include "kernel/scene/change.h"
 #include "library/ledgers.h"
 #include "library/parts.h"
-#include "library/sources.h"
 #include "library/translate.h"
 #include "voxmelt/voxmelt.h"
 
@@ -123,58 +122,22 @@ Ledgers Simulation::ledgers() const {
 
 Changes Simulation::changes(std::uint64_t version) { return parts_->changes(version); }
 
-void Simulation::set(const std::string& key, double value) {
-  translated([&] { parts_->set(key, value); });
-}
+void Simulation::set(const std::string& key, double value) { parts_->by_hand.set(key, value); }
 
-std::vector<HeatSource> Simulation::heat_sources() const {
-  std::vector<HeatSource> result;
-  for (const auto& one : parts_->simulation.parameters().heat.sources)
-    result.push_back(library::from_rule(one));
-  return result;
-}
-
-std::vector<Vent> Simulation::vents() const {
-  std::vector<Vent> result;
-  for (const auto& one : parts_->simulation.parameters().vents) result.push_back(library::from_rule(one));
-  return result;
-}
-
-std::vector<Drain> Simulation::drains() const {
-  std::vector<Drain> result;
-  for (const auto& one : parts_->simulation.parameters().drains) result.push_back(library::from_rule(one));
-  return result;
-}
+std::vector<HeatSource> Simulation::heat_sources() const { return parts_->by_hand.heat_sources(); }
+std::vector<Vent> Simulation::vents() const { return parts_->by_hand.vents(); }
+std::vector<Drain> Simulation::drains() const { return parts_->by_hand.drains(); }
 
 void Simulation::set_heat_sources(const std::vector<HeatSource>& sources) {
-  if (!sources.empty() && !parts_->simulation.parameters().heat.enabled)
-    throw InputError("set_heat_sources: error: the scene has no [heat]: without it nothing is heated");
-  translated([&] { parts_->change_sources([&](auto& all) { all.heat = library::to_rules(sources); }); });
+  parts_->by_hand.set_heat_sources(sources);
 }
-
-void Simulation::set_vents(const std::vector<Vent>& vents) {
-  translated([&] { parts_->change_sources([&](auto& all) { all.vents = library::to_rules(vents); }); });
-}
-
-void Simulation::set_drains(const std::vector<Drain>& drains) {
-  translated([&] { parts_->change_sources([&](auto& all) { all.drains = library::to_rules(drains); }); });
-}
+void Simulation::set_vents(const std::vector<Vent>& vents) { parts_->by_hand.set_vents(vents); }
+void Simulation::set_drains(const std::vector<Drain>& drains) { parts_->by_hand.set_drains(drains); }
 
 void Simulation::pour(const Position& at, double radius, double temperature) {
-  translated([&] {
-    const rule::Region ball = library::to_region("pour", at, radius);
-    const rule::Temperature heat = library::to_temperature("pour", temperature);
-    if (!parts_->simulation.pour(ball, heat))
-      throw InputError("pour: error: no cell of the grid is in the ball");
-  });
+  parts_->by_hand.pour(at, radius, temperature);
 }
-
-void Simulation::carve(const Position& at, double radius) {
-  translated([&] {
-    const rule::Region ball = library::to_region("carve", at, radius);
-    if (!parts_->simulation.carve(ball)) throw InputError("carve: error: no cell of the grid is in the ball");
-  });
-}
+void Simulation::carve(const Position& at, double radius) { parts_->by_hand.carve(at, radius); }
 
 void Simulation::export_state(const std::filesystem::path& folder, const std::string& format) const {
   const io::Format& chosen = find_format(format);

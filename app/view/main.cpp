@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,12 +20,12 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/journal/journal.h"
 #include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
 #include "app/programs.h"
 #include "app/run_program.h"
-#include "app/view/journal.h"
 #include "app/view/server.h"
 #include "app/view/session.h"
 
@@ -43,15 +44,16 @@ struct ViewOptions {
 };
 
 // Runs a journal without a page, and prints digests as `voxmelt digest` does.
-int run_headless(const ViewOptions& options, Simulation& simulation, view::JournalReader& journal) {
+int run_headless(const ViewOptions& options, Simulation& simulation, journal::Reader& journal) {
   const std::uint32_t every = options.every == 0 ? std::max(options.steps, 1u) : options.every;
+  journal::WorldOf<Simulation> world(simulation);
   const auto print_line = [&] {
     print("step {} digest {:016x}\n", simulation.steps_done(), simulation.digest());
   };
   print_line();
   while (simulation.steps_done() < options.steps) {
     stop_if_interrupted();
-    journal.apply(simulation);
+    journal.apply(world);
     const std::uint32_t done = simulation.steps_done();
     const std::uint32_t line = std::min(options.steps, (done / every + 1) * every);
     simulation.step(journal.steps_until_next(done, line - done));
@@ -71,12 +73,12 @@ void open_browser(const std::string& url) {
 }
 
 int run_view(const ViewOptions& options) {
-  std::optional<view::JournalReader> journal;
-  if (!options.journal.empty()) journal.emplace(view::read_journal(options.journal));
-  auto open = [&options, told = false]() mutable {
-    Simulation simulation(
-        find_scene(options.scene),
-        {.overrides = options.sets, .implementation = options.implementation, .threads = options.threads});
+  std::optional<journal::Reader> journal;
+  if (!options.journal.empty()) journal.emplace(journal::read_journal(options.journal));
+  auto open = [&options, told = false](const std::filesystem::path& checkpoint) mutable {
+    Options how{{}, options.implementation, options.threads};
+    if (checkpoint.empty()) how.overrides = options.sets;
+    Simulation simulation(checkpoint.empty() ? find_scene(options.scene) : checkpoint, how);
     for (const std::string& warning : simulation.warnings())
       if (!told) say("warning: " + warning);
     told = true;
@@ -84,8 +86,8 @@ int run_view(const ViewOptions& options) {
   };
   catch_interrupts();
   if (options.headless) {
-    view::JournalReader none({});
-    Simulation simulation = open();
+    journal::Reader none({});
+    Simulation simulation = open({});
     return run_headless(options, simulation, journal ? *journal : none);
   }
 
@@ -95,7 +97,7 @@ int run_view(const ViewOptions& options) {
                           server->send(client, message);
                         });
   if (journal) session.follow(std::move(*journal));
-  if (!options.record.empty()) session.record(view::JournalWriter(options.record, options.scene));
+  if (!options.record.empty()) session.record(journal::Writer(options.record, options.scene));
   server = std::make_unique<view::Server>(
       static_cast<std::uint16_t>(options.port),
       view::Audience{[&](view::Client client) { session.come(client); },

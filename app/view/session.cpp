@@ -1,21 +1,16 @@
 #include "app/view/session.h"
 
-#include <stdlib.h>  // mkdtemp
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <ios>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "app/view/encode.h"
+#include "app/view/scratch.h"
 #include "app/view/texture_message.h"
 
 namespace voxmelt::view {
@@ -35,7 +30,7 @@ double since(Clock::time_point begin) {
 
 // Reads `count` finite numbers, and nothing else.
 std::vector<double> numbers(std::string_view text, std::size_t count) {
-  const Change read = read_change("x " + std::string(text));
+  const journal::Change read = journal::read_change("x " + std::string(text));
   if (read.numbers.size() != count) throw InputError(fmt::format("error: wants {} numbers", count));
   return read.numbers;
 }
@@ -76,37 +71,10 @@ MessagePtr binary(Message::Kind kind, const std::string& head, const std::string
   return std::make_shared<const Message>(std::move(message));
 }
 
-// Is a file that only this program sees, and that goes with it.
-class Scratch {
- public:
-  Scratch() {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path();
-    std::string name = (folder / "voxmelt-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw OutputError(fmt::format("error: cannot write into {}", folder.string()));
-    folder_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  std::filesystem::path file() const { return folder_ / "file"; }
-  std::string bytes() const {
-    std::ifstream stream(file(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
- private:
-  std::filesystem::path folder_;
-};
-
 }  // namespace
 
-Session::Session(std::function<Simulation()> open, std::string scene, Send send)
-    : open_(std::move(open)), simulation_(open_()), scene_(std::move(scene)), send_(std::move(send)) {}
+Session::Session(Open open, std::string scene, Send send)
+    : open_(std::move(open)), simulation_(open_({})), scene_(std::move(scene)), send_(std::move(send)) {}
 
 void Session::stop() {
   const std::lock_guard lock(mutex_);
@@ -177,6 +145,8 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
   } else if (word == "restart") {
     numbers(rest, 0);
     restart();
+  } else if (word == "back") {
+    go_back(static_cast<std::uint32_t>(whole(numbers(rest, 1)[0], 0, simulation_.steps_done())));
   } else if (word == "camera") {
     const std::vector<double> n = numbers(rest, 6);
     Camera camera = simulation_.camera(picture(Quality::fast));
@@ -221,22 +191,23 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
 }
 
 void Session::change(std::string_view text) {
-  const Change change = read_change(text);
-  apply(change, simulation_);
+  const journal::Change change = journal::read_change(text);
+  journal::WorldOf<Simulation> world(simulation_);
+  journal::apply(change, world);
   write_down(change);
   stale_ = true;
   tell_world({});
 }
 
-void Session::write_down(const Change& change) {
-  changes_ += fmt::format("{} {}\n", simulation_.steps_done(), text_of(change));
+void Session::write_down(const journal::Change& change) {
+  changes_.push_back({simulation_.steps_done(), change, {}});
   if (record_) record_->write(simulation_.steps_done(), change);
 }
 
 void Session::save(Client client, std::string_view what) {
   std::string bytes;
   if (what == "journal") {
-    bytes = fmt::format("# voxmelt journal of {}\n{}", scene_, changes_);
+    bytes = fmt::format("# voxmelt journal of {}\n{}", scene_, journal::text_of(changes_));
   } else if (what == "checkpoint") {
     const Scratch scratch;
     simulation_.save(scratch.file());
@@ -254,10 +225,35 @@ void Session::save(Client client, std::string_view what) {
 }
 
 void Session::restart() {
-  simulation_ = open_();
-  if (journal_) journal_->rewind();
-  if (record_) record_->restart();
-  changes_.clear();
+  simulation_ = open_({});
+  cut_at(simulation_.steps_done());
+}
+
+// The states that are kept have no change of their own step, nor does the one that this comes to.
+void Session::go_back(std::uint32_t step) {
+  const Past::Kept* kept = past_.before(step);
+  const Scratch scratch;
+  if (kept != nullptr) scratch.write(kept->bytes);
+  Simulation again = open_(kept != nullptr ? scratch.file() : std::filesystem::path());
+  if (again.steps_done() > step)
+    throw InputError(fmt::format("error: this run began at step {}", again.steps_done()));
+  journal::WorldOf<Simulation> world(again);
+  journal::Reader replay(changes_);
+  replay.seek(again.steps_done());
+  while (again.steps_done() < step) {
+    replay.apply(world);
+    again.step(replay.steps_until_next(again.steps_done(), step - again.steps_done()));
+  }
+  simulation_ = std::move(again);
+  cut_at(step);
+}
+
+// Goes on from this step, and forgets what came later.
+void Session::cut_at(std::uint32_t step) {
+  std::erase_if(changes_, [&](const journal::Line& line) { return line.step >= step; });
+  past_.cut(step);
+  if (journal_) journal_->seek(step);
+  if (record_) record_->restart(changes_);
   playing_ = false;
   single_ = 0;
   stale_ = true;
@@ -269,10 +265,12 @@ void Session::step(std::uint32_t count) {
   const std::uint32_t end = simulation_.steps_done() + count;
   while (simulation_.steps_done() < end) {
     const std::uint32_t left = end - simulation_.steps_done();
-    if (journal_) journal_->apply(simulation_, [&](const Change& change) { write_down(change); });
+    journal::WorldOf<Simulation> world(simulation_);
+    if (journal_) journal_->apply(world, [&](const journal::Change& change) { write_down(change); });
     simulation_.step(journal_ ? journal_->steps_until_next(simulation_.steps_done(), left) : left);
   }
   last_.step = since(begin);
+  past_.offer(simulation_);
   stale_ = true;
 }
 

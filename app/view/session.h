@@ -4,6 +4,7 @@
 // A page says lines of text, a word and its arguments:
 //
 //   play 0|1            step N               speed N (steps a frame, 1..1000)      restart
+//   back STEP           to this step again; what came later is forgotten
 //   camera AZIMUTH ELEVATION DISTANCE X Y Z  home                  size WIDTH HEIGHT
 //   best                                     change KEY NUMBER ... (see change.h)  pick X Y
 //   save checkpoint|journal                  exact 0|1 (frames are wanted)         textures HELD (painters.h)
@@ -13,7 +14,9 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,9 +26,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/journal/journal.h"
 #include "app/view/client.h"
-#include "app/view/journal.h"
 #include "app/view/painters.h"
+#include "app/view/past.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt::view {
@@ -44,12 +48,13 @@ using Send = std::function<void(std::optional<Client>, const MessagePtr&)>;
 
 class Session {
  public:
-  // `open` gives the simulation at its first state, now and at each restart.
-  Session(std::function<Simulation()> open, std::string scene, Send send);
+  // `open` gives the simulation at its first state, or that of a checkpoint, if a file is named.
+  using Open = std::function<Simulation(const std::filesystem::path& checkpoint)>;
+  Session(Open open, std::string scene, Send send);
 
   // Before run(): changes of a journal come by themselves, and what is changed by hand is recorded.
-  void follow(JournalReader journal) { journal_ = std::move(journal); }
-  void record(JournalWriter journal) { record_ = std::move(journal); }
+  void follow(journal::Reader journal) { journal_ = std::move(journal); }
+  void record(journal::Writer journal) { record_ = std::move(journal); }
 
   void run();  // until stop()
 
@@ -76,7 +81,9 @@ class Session {
   void obey(Client client, std::string_view word, std::string_view rest);
   void change(std::string_view text);
   void restart();
-  void write_down(const Change& change);
+  void go_back(std::uint32_t step);
+  void cut_at(std::uint32_t step);
+  void write_down(const journal::Change& change);
   void step(std::uint32_t count);
   void show();  // to all pages, by their painters
   void draw();
@@ -89,13 +96,14 @@ class Session {
   void save(Client client, std::string_view what);
   Picture picture(Quality quality) const;
 
-  const std::function<Simulation()> open_;
+  const Open open_;
   Simulation simulation_;
   const std::string scene_;
   const Send send_;
-  std::optional<JournalReader> journal_;
-  std::optional<JournalWriter> record_;
-  std::string changes_;  // all lines of the journal since the beginning
+  std::optional<journal::Reader> journal_;
+  std::optional<journal::Writer> record_;
+  std::vector<journal::Line> changes_;  // all since the beginning
+  Past past_{std::size_t{256} << 20};
 
   bool playing_ = false;
   std::uint32_t speed_ = 3, single_ = 0;  // steps a frame; steps that are still asked for

@@ -93,8 +93,9 @@ ALLOWED = {
                 "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
-    "app/view": ["app", "include/voxmelt", "render/image"],
-    "app": ["kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
+    "app/view": ["app", "app/journal", "include/voxmelt", "render/image"],
+    "app/journal": ["include/voxmelt"],
+    "app": ["app/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
             "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
@@ -118,7 +119,7 @@ THIRD_PARTY = {
                   "report/bench", "report/hardware", "app", "app/view"],
     "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
-             "report/hardware", "app", "app/view"],
+             "report/hardware", "app", "app/journal", "app/view"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500

@@ -19,9 +19,9 @@
 #include <string_view>
 #include <vector>
 
-#include "voxmelt/voxmelt.h"
+#include "app/journal/world.h"
 
-namespace voxmelt::view {
+namespace voxmelt::journal {
 
 struct Change {
   std::string key;
@@ -32,6 +32,6 @@ struct Change {
 
 Change read_change(std::string_view text);
 std::string text_of(const Change& change);  // read_change() gives the same numbers again
-void apply(const Change& change, Simulation& simulation);
+void apply(const Change& change, World& world);
 
-}  // namespace voxmelt::view
+}  // namespace voxmelt::journal

@@ -1,4 +1,4 @@
-#include "app/view/change.h"
+#include "app/journal/change.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <optional>
 #include <system_error>
 
-namespace voxmelt::view {
+namespace voxmelt::journal {
 namespace {
 
 [[noreturn]] void fail(const Change& change, const std::string& what) {
@@ -121,22 +121,22 @@ void edit(const Change& change, const ListKey& key, std::vector<One>& list, cons
   }
 }
 
-void apply_to_sources(const Change& change, const ListKey& key, Simulation& simulation) {
-  std::vector<HeatSource> sources = simulation.heat_sources();
+void apply_to_sources(const Change& change, const ListKey& key, World& world) {
+  std::vector<HeatSource> sources = world.heat_sources();
   if (!key.index) {
     need(change, 4);
     sources.push_back(
         HeatSource::fixed({change.numbers[0], change.numbers[1], change.numbers[2]}, change.numbers[3]));
   } else {
     edit(change, key, sources, [&](std::string_view part, HeatSource& source) {
-      change_source(change, part, simulation.step_number(), source);
+      change_source(change, part, world.step_number(), source);
     });
   }
-  simulation.set_heat_sources(sources);
+  world.set_heat_sources(sources);
 }
 
-void apply_to_vents(const Change& change, const ListKey& key, Simulation& simulation) {
-  std::vector<Vent> vents = simulation.vents();
+void apply_to_vents(const Change& change, const ListKey& key, World& world) {
+  std::vector<Vent> vents = world.vents();
   if (!key.index) {
     need(change, 6);
     const std::vector<double>& n = change.numbers;
@@ -144,11 +144,11 @@ void apply_to_vents(const Change& change, const ListKey& key, Simulation& simula
   } else {
     edit(change, key, vents, [&](std::string_view part, Vent& vent) { change_opening(change, part, vent); });
   }
-  simulation.set_vents(vents);
+  world.set_vents(vents);
 }
 
-void apply_to_drains(const Change& change, const ListKey& key, Simulation& simulation) {
-  std::vector<Drain> drains = simulation.drains();
+void apply_to_drains(const Change& change, const ListKey& key, World& world) {
+  std::vector<Drain> drains = world.drains();
   if (!key.index) {
     need(change, 5);
     const std::vector<double>& n = change.numbers;
@@ -157,17 +157,17 @@ void apply_to_drains(const Change& change, const ListKey& key, Simulation& simul
     edit(change, key, drains,
          [&](std::string_view part, Drain& drain) { change_opening(change, part, drain); });
   }
-  simulation.set_drains(drains);
+  world.set_drains(drains);
 }
 
-bool apply_to_matter(const Change& change, Simulation& simulation) {
+bool apply_to_matter(const Change& change, World& world) {
   const std::vector<double>& n = change.numbers;
   if (change.key == "pour") {
     need(change, 5);
-    simulation.pour({n[0], n[1], n[2]}, n[3], n[4]);
+    world.pour({n[0], n[1], n[2]}, n[3], n[4]);
   } else if (change.key == "carve") {
     need(change, 4);
-    simulation.carve({n[0], n[1], n[2]}, n[3]);
+    world.carve({n[0], n[1], n[2]}, n[3]);
   } else {
     return false;
   }
@@ -204,13 +204,13 @@ std::string text_of(const Change& change) {
   return text;
 }
 
-void apply(const Change& change, Simulation& simulation) {
-  if (apply_to_matter(change, simulation)) return;
+void apply(const Change& change, World& world) {
+  if (apply_to_matter(change, world)) return;
   const std::optional<ListKey> key = list_key(change.key);
-  if (!key) return simulation.set(change.key, one(change));
-  if (key->list == "heat_source") return apply_to_sources(change, *key, simulation);
-  if (key->list == "vent") return apply_to_vents(change, *key, simulation);
-  apply_to_drains(change, *key, simulation);
+  if (!key) return world.set(change.key, one(change));
+  if (key->list == "heat_source") return apply_to_sources(change, *key, world);
+  if (key->list == "vent") return apply_to_vents(change, *key, world);
+  apply_to_drains(change, *key, world);
 }
 
-}  // namespace voxmelt::view
+}  // namespace voxmelt::journal
