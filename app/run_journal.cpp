@@ -1,7 +1,5 @@
 #include "app/run_journal.h"
 
-#include <utility>
-
 #include "app/message.h"
 #include "kernel/scene/scene.h"
 #include "voxmelt/errors.h"

@@ -1,7 +1,6 @@
 // `voxmelt run` and `voxmelt digest` make the changes of a journal (docs/view.md) when their steps have come.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "app/command_line.h"

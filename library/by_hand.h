@@ -1,5 +1,4 @@
-// What is changed by hand between two steps of a run is changed here, in the units of a user. The errors are
-// those of the public face.
+// A hand changes a run between two steps, in the units of a user. The errors are those of the public face.
 #pragma once
 
 #include <cstdint>

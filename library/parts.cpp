@@ -1,5 +1,7 @@
 #include "library/parts.h"
 
+#include <string>
+#include <utility>
 #include <algorithm>
 #include <stdexcept>
 #include <thread>

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <ios>
 #include <iterator>
+#include <ostream>
 #include <system_error>
 
 #include "voxmelt/errors.h"

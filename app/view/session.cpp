@@ -74,7 +74,11 @@ MessagePtr binary(Message::Kind kind, const std::string& head, const std::string
 }  // namespace
 
 Session::Session(Open open, std::string scene, Send send)
-    : open_(std::move(open)), simulation_(open_({})), scene_(std::move(scene)), send_(std::move(send)) {}
+    : open_(std::move(open)),
+      simulation_(open_({})),
+      first_(simulation_.steps_done()),
+      scene_(std::move(scene)),
+      send_(std::move(send)) {}
 
 void Session::stop() {
   const std::lock_guard lock(mutex_);
@@ -252,6 +256,7 @@ void Session::go_back(std::uint32_t step) {
 void Session::cut_at(std::uint32_t step) {
   std::erase_if(changes_, [&](const journal::Line& line) { return line.step >= step; });
   past_.cut(step);
+  painters_.forget_versions();
   if (journal_) journal_->seek(step);
   if (record_) record_->restart(changes_);
   playing_ = false;
@@ -330,6 +335,7 @@ std::string Session::header(const char* type, Quality quality, bool exact) const
   const State state = simulation_.state();
   json head{{"type", type},
             {"step", simulation_.steps_done()},
+            {"first", first_},
             {"playing", playing_},
             {"speed", speed_},
             {"quality", name_of(quality)},

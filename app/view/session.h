@@ -98,6 +98,7 @@ class Session {
 
   const Open open_;
   Simulation simulation_;
+  const std::uint32_t first_;  // steps done at the beginning
   const std::string scene_;
   const Send send_;
   std::optional<journal::Reader> journal_;

@@ -3,6 +3,7 @@ import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camer
 import { Ball } from "/ball.js";
 import { OwnPainter } from "/own_painter.js";
 import { Panel } from "/panel.js";
+import { Past } from "/past.js";
 
 const byId = (id) => document.getElementById(id);
 const canvas = byId("picture"), handles = byId("handles");
@@ -12,6 +13,7 @@ let socket = null, wait = 500;
 const say = (line) => { if (socket?.readyState === WebSocket.OPEN) socket.send(line); };
 const change = (key, ...numbers) => say(["change", key, ...numbers].join(" "));
 const panel = new Panel(say, change);
+const past = new Past(say);
 const own = new OwnPainter(say, () => ({ camera: camera(), ...state.size }), (head) => seen(head));
 
 function connect() {
@@ -69,6 +71,7 @@ function seen(head) {
   canvas.dataset.step = head.step;
   canvas.dataset.digest = head.digest ?? "";
   panel.showFrame(head, state.times.length / 2);
+  past.showFrame(head);
   drawHandles();
   ball.draw();
 }
@@ -279,6 +282,7 @@ addEventListener("keydown", (event) => {
   else if (event.key === "t") own.toggle();
   else if (event.key === "d") own.toggleDifference();
   else if (event.key === "b") byId("best").click();
+  else if (event.key === ",") past.oneBack();
   else if (event.key === "p") byId("pour").click();
   else if (event.key === "c") byId("carve").click();
   else if (event.key === "?") panel.toggleKeys();
