@@ -63,7 +63,7 @@ std::vector<Line> parse_journal(std::string_view text, const std::string& name) 
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (stream && stream.peek() != std::char_traits<char>::eof()) text << stream.rdbuf();
+  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
   if (!stream.is_open() || stream.bad() || text.fail())
     throw InputError(fmt::format("error: cannot read {}: {}", file.string(), last_error()));
   return text.str();
