@@ -164,7 +164,9 @@ void cast(benchmark::State& state, const Case& one,
   caster->prepare(w.opaque, w.news);
   state.counters["prepare_ms"] = 1e3 * (processor_seconds() - begin);
   const double middle = processor_seconds();
-  caster->prepare(w.opaque, {.appeared = false, .vanished = true, .turned = false, .emptied = 0});
+  visibility::Opaque::News melted;
+  melted.vanished = true;
+  caster->prepare(w.opaque, melted);
   state.counters["refit_ms"] = 1e3 * (processor_seconds() - middle);
   std::vector<visibility::Fate> fates(rays.size());
   double least = std::numeric_limits<double>::infinity();
