@@ -12,6 +12,7 @@ namespace {
 template <class Rules>
 auto from_rules(const Rules& rules) {
   std::vector<decltype(from_rule(rules.front()))> result;
+  result.reserve(rules.size());
   for (const auto& one : rules) result.push_back(from_rule(one));
   return result;
 }
