@@ -23,9 +23,9 @@ TEST(Casters, OfHostileWorldsAgreeWithTheWalk) {
   check_hostile_worlds({&two_level}, 200, 72);
 }
 
-TEST(Casters, OfFiveScenesAndAHundredSourcesAgreeWithTheWalk) {
+TEST(Casters, OfFiveScenesAndFiftySourcesAgreeWithTheWalk) {
   TwoLevelCaster two_level;
-  check_scenes({&two_level});
+  check_scenes({&two_level}, 50);
 }
 
 // Follows a ray step by step, from brick to brick, and straight into each brick. The cells are those of
