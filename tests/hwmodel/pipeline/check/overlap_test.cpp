@@ -1,5 +1,6 @@
 // Passes that follow without a gap give the same bits in exactly the predicted cycles, and every fault is
 // found where it was planted. The grids are deep, since a pass must be longer than the machine's lags.
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
