@@ -1,10 +1,10 @@
 #include "library/parts.h"
 
-#include <string>
-#include <utility>
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/opening/checkpoint_scene.h"

@@ -11,6 +11,8 @@
 #include <optional>
 #include <system_error>
 
+#include "voxmelt/errors.h"
+
 namespace voxmelt::journal {
 namespace {
 

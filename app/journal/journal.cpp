@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "voxmelt/errors.h"
+
 namespace voxmelt::journal {
 namespace {
 

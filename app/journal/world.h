@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "voxmelt/sources.h"
-#include "voxmelt/voxmelt.h"
 
 namespace voxmelt::journal {
 
