@@ -3,80 +3,23 @@
 
 Gestures of mouse, wheel, keys and panel change what they say; nothing is cut off from 320 x 480 to 3840 x 2160, light and
 dark; there is no error in the console. Skipped (77) without chromium, chromium-driver and python3-selenium."""
-import shutil
 import sys
-import time
-import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.path.append("/usr/lib/python3/dist-packages")  # where Debian has selenium, whichever Python this is
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
+import browser
+from browser import InBrowser
+from page import Page, Server
+
+if browser.webdriver:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-except ImportError:
-    webdriver = None
-from page import Page, Server
-
-PROGRAM = str(Path(sys.argv[1]).resolve())
-SHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
 
 
-def browser(width, height, dark=False):
-    options = webdriver.ChromeOptions()
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", f"--window-size={width},{height}",
-                 "--force-dark-mode" if dark else "--disable-dark-mode"):
-        options.add_argument(word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-    # The window's inside shall be that large, whatever its frame takes.
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                           {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500})
-    if dark:
-        driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                               {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-    return driver
-
-
-class BrowserTest(unittest.TestCase):
-    def open(self, scene, width=1280, height=800, dark=False):
-        self.server = Server(PROGRAM, scene, "--threads", 2)
-        self.addCleanup(self.server.__exit__)
-        self.driver = browser(width, height, dark)
-        self.addCleanup(self.driver.quit)
-        self.driver.get(self.server.url)
-        self.wait(lambda: self.data("digest"))
-
-    def wait(self, what, seconds=20):
-        end = time.monotonic() + seconds
-        while not (found := what()):
-            self.assertLess(time.monotonic(), end, "it does not come")
-            time.sleep(0.05)
-        return found
-
-    def data(self, name):
-        return self.driver.execute_script(f"return document.getElementById('picture').dataset.{name}")
-
-    def element(self, name):
-        return self.driver.find_element(By.ID, name)
-
-    def pixels(self):
-        return self.driver.execute_script("return document.getElementById('picture').toDataURL()")
-
-    def no_errors(self):
-        wrong = [line for line in self.driver.get_log("browser") if line["level"] == "SEVERE"]
-        self.assertEqual(wrong, [])
-
-    def shot(self, name):
-        if SHOTS:
-            SHOTS.mkdir(parents=True, exist_ok=True)
-            self.driver.save_screenshot(str(SHOTS / f"{name}.png"))
-
+class BrowserTest(InBrowser):
     def changes_picture(self, gesture):
         """The gesture, and that the picture at rest is another one then."""
         before, step = self.pixels(), self.data("step")
@@ -201,7 +144,7 @@ class BrowserTest(unittest.TestCase):
         self.server.__exit__()
         self.wait(lambda: "server is not there" in self.element("notice").text)
         self.shot("gone")
-        self.server = Server(PROGRAM, "bunny_small", "--port", port)
+        self.server = Server(browser.PROGRAM, "bunny_small", "--port", port)
         self.addCleanup(self.server.__exit__)
         self.wait(lambda: self.element("notice").text == "", 30)
 
@@ -224,7 +167,4 @@ class BrowserTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if webdriver is None or not shutil.which("chromium") or not shutil.which("chromedriver"):
-        print("skipped: there is no chromium, chromium-driver or python3-selenium")
-        sys.exit(77)
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    browser.main()

@@ -11,7 +11,9 @@ export class OwnPainter {
   constructor(say, look, told) {
     Object.assign(this, { say, look, told });
     this.canvas = byId("textures");
+    this.canvas.own = this;  // for tests, and for whoever looks in with the browser's tools
     this.on = this.compares = false;
+    this.updates = 0;
     this.painter = this.head = this.exact = null;
     this.drawn = "";  // what the canvas shows
     this.queue = Promise.resolve();
@@ -60,6 +62,7 @@ export class OwnPainter {
     this.queue = this.queue.then(async () => {
       const news = await this.painter.take(bytes);
       this.head = { ...head, version: news.version, bytes: news.bytes };
+      ++this.updates;
       this.canvas.dataset.version = news.version;
       this.canvas.dataset.step = head.step;
       this.told(this.head);
@@ -101,6 +104,7 @@ export class OwnPainter {
     this.wanted = "";
     const exact = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
     const found = difference(exact, this.painter.pixels(), byId("difference"), canvas.width, canvas.height);
+    this.compared = head.camera;
     byId("psnr").textContent = found.different === 0 ? "Both painters give the same bytes." :
       `${found.different} pixels differ, by ${found.most} at most: PSNR ${found.psnr.toFixed(1)} dB.`;
   }
