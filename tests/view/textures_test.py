@@ -136,6 +136,20 @@ class TexturesTest(unittest.TestCase):
             for page in pages:
                 page.link.close()
 
+    def test_a_filtered_field_is_that_of_a_fresh_picture(self):
+        write(self.path, SCENE.replace("smooth = 0", "smooth = 2").replace("smooth_solid = 0", "smooth_solid = 1"), "soft.toml")
+        with self.serve("soft.toml") as server, Page(server) as page:
+            textures = Textures(page)
+            for step in range(2, 61, 2):
+                page.send("step 2")
+                page.rest(step)
+                while textures.update()["step"] != step:
+                    pass
+            page.send("save checkpoint")
+            (self.path / "soft.checkpoint").write_bytes(page.file()[1])
+        with self.serve("soft.checkpoint") as server:
+            self.assertEqual(self.all_of(server).held(), textures.held())
+
     def test_bytes_are_those_of_changed_bricks(self):
         with self.serve("cello") as server, Page(server) as page:
             textures = Textures(page)
