@@ -25,6 +25,8 @@ std::vector<HeatSource> ByHand::heat_sources() const {
 std::vector<Vent> ByHand::vents() const { return from_rules(simulation_.parameters().vents); }
 std::vector<Drain> ByHand::drains() const { return from_rules(simulation_.parameters().drains); }
 
+std::map<std::string, double> ByHand::numbers() const { return scene::said_numbers(scene_.settings); }
+
 void ByHand::set(const std::string& key, double value) {
   translated([&] {
     scene::change_key(scene_, key, value, "set");

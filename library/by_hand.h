@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ class ByHand {
   std::vector<HeatSource> heat_sources() const;
   std::vector<Vent> vents() const;
   std::vector<Drain> drains() const;
+  std::map<std::string, double> numbers() const;
   void set(const std::string& key, double value);
   void set_heat_sources(const std::vector<HeatSource>& sources);
   void set_vents(const std::vector<Vent>& vents);

@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -121,6 +122,8 @@ Ledgers Simulation::ledgers() const {
 }
 
 Changes Simulation::changes(std::uint64_t version) { return parts_->changes(version); }
+
+std::map<std::string, double> Simulation::numbers() const { return parts_->by_hand.numbers(); }
 
 void Simulation::set(const std::string& key, double value) { parts_->by_hand.set(key, value); }
 

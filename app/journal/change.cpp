@@ -31,7 +31,7 @@ std::optional<ListKey> list_key(std::string_view key) {
   ListKey result{key.substr(0, dot), {}, {}};
   if (result.list != "heat_source" && result.list != "vent" && result.list != "drain") return {};
   const std::string_view rest = key.substr(dot + 1);
-  if (rest == "add") {
+  if (rest.starts_with("add") && rest.find('.') == rest.npos) {
     result.part = rest;
     return result;
   }
@@ -123,12 +123,29 @@ void edit(const Change& change, const ListKey& key, std::vector<One>& list, cons
   }
 }
 
+HeatSource new_source(const Change& change, std::string_view how) {
+  const std::vector<double>& n = change.numbers;
+  if (how == "add") {
+    need(change, 4);
+    return HeatSource::fixed({n[0], n[1], n[2]}, n[3]);
+  }
+  if (how == "add_sphere") {
+    need(change, 5);
+    return {{{.at = {n[0], n[1], n[2]}, .power = n[4], .radius = n[3]}}, HeatSourceKind::sphere};
+  }
+  if (how == "add_sun") {
+    need(change, 4);
+    return {{{.power = n[3], .direction = {n[0], n[1], n[2]}}}, HeatSourceKind::directional};
+  }
+  if (how != "add_sky") fail(change, "is no way to add a source");
+  need(change, 1);
+  return {{{.power = n[0]}}, HeatSourceKind::sky};
+}
+
 void apply_to_sources(const Change& change, const ListKey& key, World& world) {
   std::vector<HeatSource> sources = world.heat_sources();
   if (!key.index) {
-    need(change, 4);
-    sources.push_back(
-        HeatSource::fixed({change.numbers[0], change.numbers[1], change.numbers[2]}, change.numbers[3]));
+    sources.push_back(new_source(change, key.part));
   } else {
     edit(change, key, sources, [&](std::string_view part, HeatSource& source) {
       change_source(change, part, world.step_number(), source);
@@ -140,6 +157,7 @@ void apply_to_sources(const Change& change, const ListKey& key, World& world) {
 void apply_to_vents(const Change& change, const ListKey& key, World& world) {
   std::vector<Vent> vents = world.vents();
   if (!key.index) {
+    if (key.part != "add") fail(change, "is no way to add a vent");
     need(change, 6);
     const std::vector<double>& n = change.numbers;
     vents.push_back({.at = {n[0], n[1], n[2]}, .radius = n[3], .rate = n[4], .temperature = n[5]});
@@ -152,6 +170,7 @@ void apply_to_vents(const Change& change, const ListKey& key, World& world) {
 void apply_to_drains(const Change& change, const ListKey& key, World& world) {
   std::vector<Drain> drains = world.drains();
   if (!key.index) {
+    if (key.part != "add") fail(change, "is no way to add a drain");
     need(change, 5);
     const std::vector<double>& n = change.numbers;
     drains.push_back({.at = {n[0], n[1], n[2]}, .radius = n[3], .rate = n[4]});

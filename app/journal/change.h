@@ -3,6 +3,9 @@
 //
 //   heat_source.0.at X Y Z           .power P   .radius R   .direction X Y Z   .remove
 //   heat_source.add X Y Z POWER      a point; it gets the next number
+//   heat_source.add_sphere X Y Z RADIUS POWER
+//   heat_source.add_sun X Y Z POWER  towards it
+//   heat_source.add_sky POWER
 //   vent.0.at X Y Z                  .radius R  .rate A     .temperature T     .remove
 //   vent.add X Y Z RADIUS RATE TEMPERATURE
 //   drain.0.at X Y Z                 .radius R  .rate A     .remove

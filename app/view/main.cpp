@@ -38,7 +38,7 @@ struct ViewOptions {
   std::string scene, implementation = "auto";
   int threads = 0, port = 0;
   std::vector<std::string> sets;
-  std::string journal, record;
+  std::string journal, record, listen;
   bool open = false, headless = false;
   std::uint32_t steps = 0, every = 0;
 };
@@ -99,11 +99,13 @@ int run_view(const ViewOptions& options) {
   if (journal) session.follow(std::move(*journal));
   if (!options.record.empty()) session.record(journal::Writer(options.record, options.scene));
   server = std::make_unique<view::Server>(
-      static_cast<std::uint16_t>(options.port),
+      view::Address{options.listen.empty() ? "127.0.0.1" : options.listen,
+                    static_cast<std::uint16_t>(options.port),
+                    options.listen.empty() ? "" : view::new_token()},
       view::Audience{[&](view::Client client) { session.come(client); },
                      [&](view::Client client, std::string line) { session.say(client, std::move(line)); },
                      [&](view::Client client) { session.leave(client); }});
-  const std::string url = fmt::format("http://127.0.0.1:{}/", server->port());
+  const std::string url = server->address().url();
   print("{}\n", url);
   std::fflush(stdout);  // whoever waits for the address reads a pipe
   if (options.open) open_browser(url);
@@ -137,6 +139,8 @@ void add_view(CommandLine& program) {
   command.option("--port", options->port, "port on the loopback address; 0: any that is free")
       .within(0, 65535)
       .shows_default();
+  command.option("--listen", options->listen,
+                 "listen on this address, not the loopback one; the URL has a token then");
   command.flag("--open", options->open, "show the page in the browser");
   command.option("--set", options->sets, "change a key of the scene").written_as("KEY=VALUE").one_each_time();
   command.option("--implementation", options->implementation, "see `voxmelt list implementations`")

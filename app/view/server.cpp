@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <exception>
 #include <utility>  // Boost 1.74 needs it before its own headers
 
@@ -77,19 +78,22 @@ class Rate {
 
 class Server::Net {
  public:
-  Net(std::uint16_t port, Audience audience) : audience_(std::move(audience)), acceptor_(context_) {
-    const tcp::endpoint place(net::ip::address_v4::loopback(), port);
+  Net(const Address& address, Audience audience)
+      : address_(address), audience_(std::move(audience)), acceptor_(context_) {
     Error error;
+    const tcp::endpoint place(net::ip::make_address(address.host, error), address.port);
+    if (error) throw InputError(fmt::format("error: --listen {}: is no address in numbers", address.host));
     acceptor_.open(place.protocol(), error);
     if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
     if (!error) acceptor_.bind(place, error);
     if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
-    if (error) throw OutputError(fmt::format("error: cannot listen on port {}: {}", port, error.message()));
-    port_ = acceptor_.local_endpoint().port();
+    if (error)
+      throw OutputError(fmt::format("error: cannot listen on port {}: {}", address.port, error.message()));
+    address_.port = acceptor_.local_endpoint().port();
     net::co_spawn(context_, listen(), net::detached);
   }
 
-  std::uint16_t port() const { return port_; }
+  const Address& address() const { return address_; }
   void run() { context_.run(); }
   void stop() { context_.stop(); }
 
@@ -120,7 +124,11 @@ class Server::Net {
     }
     MessagePtr take() {
       MessagePtr next;
-      if (!texts.empty()) {
+      if (told != dropped) {
+        told = dropped;
+        next = std::make_shared<const Message>(
+            Message{fmt::format(R"({{"type":"dropped","frames":{}}})", dropped), Message::Kind::text});
+      } else if (!texts.empty()) {
         next = texts.front();
         texts.pop_front();
       } else {
@@ -133,7 +141,7 @@ class Server::Net {
     net::steady_timer news;
     std::deque<MessagePtr> texts;
     MessagePtr frame, textures;
-    std::uint64_t dropped = 0;
+    std::uint64_t dropped = 0, told = 0;  // frames
     bool open = true;
   };
 
@@ -166,7 +174,7 @@ class Server::Net {
     } else if (!is_for_us(request)) {
       co_await reply(stream, answer(request, http::status::forbidden, "text/plain",
                                     "This server answers requests of its own page alone.\n"));
-    } else if (websocket::is_upgrade(request) && request.target() == "/socket") {
+    } else if (websocket::is_upgrade(request) && target_of(request) == "/socket") {
       co_await talk(stream.release_socket(), request);
     } else {
       co_await reply(stream, file(request));
@@ -179,23 +187,20 @@ class Server::Net {
     stream.socket().shutdown(tcp::socket::shutdown_send, error);
   }
 
-  // Host must be a name of the loopback address, with our port. A browser says in Origin whose page asks.
   bool is_for_us(const Request& request) const {
-    const std::string_view host = text_of(request[http::field::host]);
-    const bool known =
-        host == fmt::format("127.0.0.1:{}", port_) || host == fmt::format("localhost:{}", port_);
-    if (!known) return false;
-    const auto origin = request.find(http::field::origin);
-    if (origin == request.end()) return !websocket::is_upgrade(request);
-    return text_of(origin->value()) == fmt::format("http://{}", host);
+    return address_.is_own(text_of(request[http::field::host]), text_of(request[http::field::origin]),
+                           websocket::is_upgrade(request)) &&
+           !target_of(request).empty();
+  }
+  std::string_view target_of(const Request& request) const {
+    return address_.target_of(text_of(request.target()));
   }
 
-  static Response file(const Request& request) {
+  Response file(const Request& request) const {
     if (request.method() != http::verb::get && request.method() != http::verb::head)
       return answer(request, http::status::method_not_allowed, "text/plain", "Pages are only read.\n");
     for (const PageFile& page : page_files())
-      if (text_of(request.target()) == page.target)
-        return answer(request, http::status::ok, page.type, page.text);
+      if (target_of(request) == page.target) return answer(request, http::status::ok, page.type, page.text);
     return answer(request, http::status::not_found, "text/plain", "There is no such page.\n");
   }
 
@@ -255,19 +260,19 @@ class Server::Net {
     }
   }
 
+  Address address_;
   Audience audience_;
   net::io_context context_{1};
   tcp::acceptor acceptor_;
-  std::uint16_t port_ = 0;
   std::size_t connections_ = 0;
   Client last_client_ = 0;
   std::map<Client, std::shared_ptr<Page>> pages_;
 };
 
-Server::Server(std::uint16_t port, Audience audience)
-    : net_(std::make_unique<Net>(port, std::move(audience))) {}
+Server::Server(const Address& address, Audience audience)
+    : net_(std::make_unique<Net>(address, std::move(audience))) {}
 Server::~Server() = default;
-std::uint16_t Server::port() const { return net_->port(); }
+const Address& Server::address() const { return net_->address(); }
 void Server::run() { net_->run(); }
 void Server::stop() { net_->stop(); }
 void Server::send(std::optional<Client> client, const MessagePtr& message) { net_->send(client, message); }

@@ -5,12 +5,12 @@
 // page of another site may drive it. Nothing that a page says names a file.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/view/address.h"
 #include "app/view/session.h"
 
 namespace voxmelt::view {
@@ -24,15 +24,15 @@ struct Audience {
 
 class Server {
  public:
-  // Throws OutputError if the port cannot be had. Port 0 takes any that is free.
-  Server(std::uint16_t port, Audience audience);
+  // Throws OutputError if the address and the port cannot be had.
+  Server(const Address& address, Audience audience);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  std::uint16_t port() const;
-  void run();   // until stop()
-  void stop();  // any thread
+  const Address& address() const;  // with the port that was had
+  void run();                      // until stop()
+  void stop();                     // any thread
 
   // Any thread. A page that is too slow for frames gets the newest one: those between are dropped.
   void send(std::optional<Client> client, const MessagePtr& message);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/view/books.h"
 #include "app/view/encode.h"
 #include "app/view/scratch.h"
 #include "app/view/texture_message.h"
@@ -121,9 +122,15 @@ void Session::run() {
 }
 
 void Session::obey(const Order& order) {
-  if (order.kind == Order::Kind::left) return painters_.leave(order.client);
+  if (order.kind == Order::Kind::left) {
+    painters_.leave(order.client);
+    hands_.leave(order.client);
+    return tell_hands();
+  }
   if (order.kind == Order::Kind::came) {
     painters_.come(order.client);
+    hands_.come(order.client);
+    tell_hands();
     tell_world(order.client);
     stale_ = true;
     return;
@@ -138,8 +145,23 @@ void Session::obey(const Order& order) {
   }
 }
 
+void Session::tell_hands() {
+  for (const Client client : hands_.pages())
+    tell(client,
+         json{{"type", "hands"}, {"yours", hands_.has(client)}, {"asked", hands_.asked(client)}}.dump());
+}
+
 void Session::obey(Client client, std::string_view word, std::string_view rest) {
-  if (word == "play") {
+  if (Hands::are_needed(word) && !hands_.has(client))
+    throw InputError("error: another page has the hands; `hands` asks for them");
+  if (word == "hands" || word == "give") {
+    numbers(rest, 0);
+    if (word == "hands")
+      hands_.ask(client, Clock::now());
+    else
+      hands_.give();
+    tell_hands();
+  } else if (word == "play") {
     playing_ = whole(numbers(rest, 1)[0], 0, 1) == 1;
     stale_ = true;
   } else if (word == "step") {
@@ -152,17 +174,7 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
   } else if (word == "back") {
     go_back(static_cast<std::uint32_t>(whole(numbers(rest, 1)[0], 0, simulation_.steps_done())));
   } else if (word == "camera") {
-    const std::vector<double> n = numbers(rest, 6);
-    Camera camera = simulation_.camera(picture(Quality::fast));
-    camera.azimuth = n[0];
-    camera.elevation = n[1];
-    camera.distance = n[2];
-    camera.target = {n[3], n[4], n[5]};
-    Picture asked = picture(Quality::fast);
-    asked.camera = camera;
-    (void)simulation_.camera(asked);  // refuses what is out of range
-    camera_ = camera;
-    stale_ = true;
+    look(numbers(rest, 6));
   } else if (word == "home") {
     numbers(rest, 0);
     camera_.reset();
@@ -192,6 +204,19 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
   } else {
     throw InputError("error: no such word");
   }
+}
+
+void Session::look(const std::vector<double>& n) {
+  Camera camera = simulation_.camera(picture(Quality::fast));
+  camera.azimuth = n[0];
+  camera.elevation = n[1];
+  camera.distance = n[2];
+  camera.target = {n[3], n[4], n[5]};
+  Picture asked = picture(Quality::fast);
+  asked.camera = camera;
+  (void)simulation_.camera(asked);  // refuses what is out of range
+  camera_ = camera;
+  stale_ = true;
 }
 
 void Session::change(std::string_view text) {
@@ -295,7 +320,17 @@ Picture Session::picture(Quality quality) const {
   return result;
 }
 
+// Passes over the state are worth it some times a second, and where nobody waits for the next frame.
+void Session::tell_books() {
+  constexpr std::chrono::milliseconds kPause{300};
+  const Clock::time_point now = Clock::now();
+  if (moving() && now - last_books_ < kPause) return;
+  last_books_ = now;
+  tell({}, books_of(simulation_, past_.bytes()));
+}
+
 void Session::show() {
+  tell_books();
   painters_.note_news();
   send_textures();
   if (painters_.draw_exact()) draw();
@@ -375,6 +410,7 @@ void Session::tell_world(std::optional<Client> client) {
                     {"implementation", simulation_.implementation()},
                     {"threads", simulation_.threads()},
                     {"keys", changeable_keys()},
+                    {"numbers", simulation_.numbers()},
                     {"heat_sources", sources},
                     {"vents", vents},
                     {"drains", drains}}

@@ -9,10 +9,13 @@
 //   best                                     change KEY NUMBER ... (see change.h)  pick X Y
 //   save checkpoint|journal                  exact 0|1 (frames are wanted)         textures HELD (painters.h)
 //
+//   hands               asks for them        give (them to who asked)
+//
 // It gets frames, files, and answers of one line of JSON with a "type". A line that is wrong gets a
 // "refused", and changes nothing.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +31,7 @@
 
 #include "app/journal/journal.h"
 #include "app/view/client.h"
+#include "app/view/hands.h"
 #include "app/view/painters.h"
 #include "app/view/past.h"
 #include "voxmelt/voxmelt.h"
@@ -79,12 +83,15 @@ class Session {
   bool wait();  // for something to do; false after stop()
   void obey(const Order& order);
   void obey(Client client, std::string_view word, std::string_view rest);
+  void look(const std::vector<double>& camera);
   void change(std::string_view text);
   void restart();
   void go_back(std::uint32_t step);
   void cut_at(std::uint32_t step);
   void write_down(const journal::Change& change);
   void step(std::uint32_t count);
+  void tell_hands();
+  void tell_books();
   void show();  // to all pages, by their painters
   void draw();
   void send_textures();
@@ -111,10 +118,12 @@ class Session {
   int width_ = 640, height_ = 480;
   std::optional<Camera> camera_;
   Painters painters_;
+  Hands hands_;
   bool stale_ = true;  // the last frame shows something else
   Quality drawn_ = Quality::fast;
   bool best_ = false;  // the best picture was asked for
   Milliseconds last_;
+  std::chrono::steady_clock::time_point last_books_{};
 
   std::mutex mutex_;  // of what follows
   std::condition_variable something_;

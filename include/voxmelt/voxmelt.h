@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -133,6 +134,10 @@ class Simulation {
   /// this value. docs/library.md lists the keys.
   /// @throws InputError for another key, and for a value out of its range; then nothing changes
   void set(const std::string& key, double value);
+
+  /// Returns the numbers that set() takes and the scene says, by their keys. Others have the defaults that
+  /// docs/scenes.md lists.
+  std::map<std::string, double> numbers() const;
 
   /// Returns the sources, vents or drains, as rounded to the automaton's units.
   std::vector<HeatSource> heat_sources() const;

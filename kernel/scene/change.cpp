@@ -112,6 +112,23 @@ const std::vector<std::string>& changeable_keys() {
   return keys;
 }
 
+std::map<std::string, double> said_numbers(const std::string& settings) {
+  const Value document = parsed(settings, "the scene");
+  std::map<std::string, double> said;
+  for (const std::string& key : changeable_keys()) {
+    const Value* value = &document;
+    for (std::size_t begin = 0; value != nullptr && begin <= key.size();) {
+      const std::size_t end = std::min(key.find('.', begin), key.size());
+      value = value->kind == Value::Kind::table ? value->find(key.substr(begin, end - begin)) : nullptr;
+      begin = end + 1;
+    }
+    if (value == nullptr) continue;
+    if (value->kind == Value::Kind::integer) said[key] = static_cast<double>(value->integer);
+    if (value->kind == Value::Kind::real) said[key] = value->real;
+  }
+  return said;
+}
+
 void change_key(Scene& scene, const std::string& key, double value, const std::string& caller) {
   Value document = parsed(scene.settings, caller + ", in the scene");
   const Place place{std::make_shared<const Origin>(Origin{caller, {}, false}), 0, 0};

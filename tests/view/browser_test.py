@@ -126,6 +126,50 @@ class BrowserTest(InBrowser):
         self.wait(lambda: self.element("carve").get_attribute("aria-pressed") == "false")
         self.no_errors()
 
+    def test_sliders_suns_and_drains(self):
+        self.open("bunny_small")
+        said = self.world()["numbers"]
+        slider = self.driver.find_element(By.CSS_SELECTOR, "#said input[title='heat.gamma']")
+        self.driver.execute_script("arguments[0].value = -1; arguments[0].dispatchEvent(new Event('input'))", slider)
+        self.wait(lambda: abs(self.world()["numbers"]["heat.gamma"] / said["heat.gamma"] - 0.1) < 1e-4)
+        self.element("add-sun").click()
+        self.wait(lambda: [one["kind"] for one in self.world()["heat_sources"]] == ["point", "directional"])
+        self.element("add-sky").click()
+        self.wait(lambda: len(self.world()["heat_sources"]) == 3)
+        self.element("add-drain").click()
+        ActionChains(self.driver, duration=50).move_to_element_with_offset(self.element("picture"), -60, -30).click().perform()
+        self.wait(lambda: len(self.world()["drains"]) == 1)
+        self.assertIn("the drift is 0", self.element("drift").text)
+        self.shot("panel")
+        self.no_errors()
+
+    def test_back_in_time(self):
+        self.open("bunny_small")
+        first = self.data("digest")
+        for key, step in ((".", "1"), (".", "2"), (".", "3"), (",", "2")):
+            ActionChains(self.driver).send_keys(key).perform()
+            self.wait(lambda: self.data("step") == step and self.data("digest"))
+        slider = self.element("past")
+        self.driver.execute_script("arguments[0].value = 0; arguments[0].dispatchEvent(new Event('change'))", slider)
+        self.wait(lambda: self.data("step") == "0" and self.data("digest") == first)
+        self.no_errors()
+
+    def test_a_second_page_looks_on(self):
+        self.open("bunny_small")
+        with Page(self.server) as page:
+            page.send("hands")
+            self.wait(lambda: "asks for the hands" in self.element("hands-text").text)
+            self.element("hands-button").click()
+            self.wait(lambda: "You look on" in self.element("hands-text").text)
+            self.shot("looks_on")
+            self.element("single").click()
+            time.sleep(0.5)
+            self.assertEqual((self.data("step"), self.element("notice").text), ("0", ""))
+            page.send("step 2")
+            self.wait(lambda: self.data("step") == "2")
+        self.wait(lambda: not self.element("hands").is_displayed())
+        self.no_errors()
+
     def test_numbers_are_set_and_refused(self):
         self.open("bunny_small")
         key = self.element("key")

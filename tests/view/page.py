@@ -16,7 +16,7 @@ class Server:
         self.process = subprocess.Popen([program, "view", *map(str, arguments)], stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, cwd=cwd)
         self.url = self.process.stdout.readline().strip()
-        self.port = int(self.url.rstrip("/").rsplit(":", 1)[1]) if self.url else 0
+        self.port = int(self.url.rsplit(":", 1)[1].split("/")[0]) if self.url else 0
 
     def __enter__(self):
         return self

@@ -239,7 +239,7 @@ class ViewTest(unittest.TestCase):
             self.assertEqual(server.end()[0], 0)
 
     def test_a_slow_page_holds_nobody_up(self):
-        with self.serve() as server, Page(server) as slow, Page(server) as page:
+        with self.serve() as server, Page(server) as page, Page(server) as slow:
             page.send("size 640 480")
             page.send("play 1")
             seen = 0
@@ -247,7 +247,7 @@ class ViewTest(unittest.TestCase):
                 seen += page.hear()[0] == "frame"
             page.send("play 0")
             step = page.rest()[0]["step"]
-            slow.send("home")
+            page.send("home")
             self.assertEqual(slow.rest(step)[0]["step"], step)
 
     def test_a_probe_names_the_cell(self):

@@ -37,13 +37,12 @@ export class Panel {
   constructor(say, change) {
     this.change = change;
     this.middles = new Map();  // of sliders, by key: the value that they first had
-    this.history = [];
     this.busy = false;  // a slider is being dragged, and must not be replaced under the pointer
     byId("panel").addEventListener("pointerdown", () => { this.busy = true; });
     addEventListener("pointerup", () => { this.busy = false; });
     byId("play").addEventListener("click", () => say(`play ${this.playing ? 0 : 1}`));
     byId("single").addEventListener("click", () => say("step 1"));
-    byId("restart").addEventListener("click", () => { this.history = []; say("restart"); });
+    byId("restart").addEventListener("click", () => say("restart"));
     byId("home").addEventListener("click", () => say("home"));
     byId("best").addEventListener("click", () => say("best"));
     byId("speed").addEventListener("input", (event) => say(`speed ${event.target.value}`));
@@ -52,6 +51,8 @@ export class Panel {
       const [x, y, z] = this.world.grid;
       change("heat_source.add", x / 2, y * 1.1, z * 1.1, round(0.004 * Math.max(x, y, z) ** 2));
     });
+    byId("add-sun").addEventListener("click", () => change("heat_source.add_sun", 1, 2, 1, 0.01));
+    byId("add-sky").addEventListener("click", () => change("heat_source.add_sky", 0.01));
     byId("numbers").addEventListener("submit", (event) => {
       event.preventDefault();
       change(byId("key").value, Number(byId("value").value));
@@ -76,6 +77,8 @@ export class Panel {
     this.showList("vents", world.vents, "vent", (vent, i) =>
       [[`${i + 1}. rate`, "rate", vent.rate], ["temperature", "temperature", vent.temperature],
        ["radius", "radius", vent.radius]]);
+    this.showList("drains", world.drains, "drain", (drain, i) =>
+      [[`${i + 1}. rate`, "rate", drain.rate], ["radius", "radius", drain.radius]]);
   }
 
   showList(place, list, name, rowsOf) {
@@ -96,27 +99,11 @@ export class Panel {
     byId("play").textContent = head.playing ? "Pause" : "Play";
     byId("play").classList.toggle("on", head.playing);
     if (document.activeElement !== byId("speed")) byId("speed").value = head.speed;
-    const last = this.history.at(-1);
-    if (!last || last.step < head.step) this.history.push(head);
-    if (last && last.step > head.step) this.history = [head];
-    if (this.history.length > 600) this.history = this.history.filter((_, i) => i % 2 === 0);
-    this.plot();
     const { step, draw, encode } = head.ms;
     byId("speeds").textContent =
       `Step ${head.step}. ${framesPerSecond.toFixed(0)} frames a second. ` +
       `${step.toFixed(1)} ms for ${head.speed} steps, ${draw.toFixed(1)} ms to draw (${head.quality}), ` +
       `${encode.toFixed(1)} ms to encode.` + (head.digest ? ` Digest ${head.digest}.` : "");
-  }
-
-  plot() {
-    const most = Math.max(1, ...this.history.map((h) => h.solid + h.liquid));
-    const first = this.history[0].step, span = Math.max(1, this.history.at(-1).step - first);
-    const line = (part) => this.history
-      .map((h) => `${(240 * (h.step - first)) / span},${58 - (56 * h[part]) / most}`).join(" ");
-    byId("plot").innerHTML = ["solid", "liquid"].map((p) => `<polyline class="${p}" points="${line(p)}"/>`).join("");
-    const last = this.history.at(-1);
-    byId("legend").innerHTML = `<span class="solid">${last.solid} cells solid</span>, ` +
-      `<span class="liquid">${last.liquid} liquid</span>`;
   }
 
   showPick(pick) {

@@ -1,23 +1,29 @@
 // The page talks to the server in lines of text, and shows the frames that come back.
 import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
 import { Ball } from "/ball.js";
+import { Books } from "/books.js";
+import { Hands } from "/hands.js";
+import { Numbers } from "/numbers.js";
 import { OwnPainter } from "/own_painter.js";
 import { Panel } from "/panel.js";
 import { Past } from "/past.js";
 
 const byId = (id) => document.getElementById(id);
 const canvas = byId("picture"), handles = byId("handles");
-const state = { camera: null, head: null, world: null, own: null, placing: false, times: [] };
+const state = { camera: null, head: null, world: null, own: null, placing: null, times: [] };
 let socket = null, wait = 500;
 
-const say = (line) => { if (socket?.readyState === WebSocket.OPEN) socket.send(line); };
+const say = (line) => { if (socket?.readyState === WebSocket.OPEN && hands.may(line)) socket.send(line); };
+const hands = new Hands(say, () => size());
 const change = (key, ...numbers) => say(["change", key, ...numbers].join(" "));
 const panel = new Panel(say, change);
 const past = new Past(say);
+const books = new Books();
+const numbers = new Numbers(change);
 const own = new OwnPainter(say, () => ({ camera: camera(), ...state.size }), (head) => seen(head));
 
 function connect() {
-  socket = new WebSocket(`ws://${location.host}/socket`);
+  socket = new WebSocket(`ws://${location.host}/socket${location.search}`);
   socket.binaryType = "arraybuffer";
   socket.onopen = () => { wait = 500; byId("notice").textContent = ""; size(); own.meet(); };
   socket.onmessage = (event) => (typeof event.data === "string" ? hear(JSON.parse(event.data)) : show(event.data));
@@ -29,8 +35,11 @@ function connect() {
 }
 
 function hear(message) {
-  if (message.type === "world") { state.world = message; panel.showWorld(message); drawHandles(); }
+  if (message.type === "world") { state.world = message; panel.showWorld(message); numbers.showWorld(message); drawHandles(); }
   if (message.type === "pick" && !ball.hear(message)) panel.showPick(message);
+  if (message.type === "hands") hands.take(message);
+  if (message.type === "dropped") books.skipped = message.frames;
+  if (message.type === "books") books.take(message);
   if (message.type === "refused") {
     byId("notice").textContent = message.why;
     setTimeout(() => { if (byId("notice").textContent === message.why) byId("notice").textContent = ""; }, 6000);
@@ -46,6 +55,7 @@ function download(name, blob) {
 }
 
 async function show(bytes) {
+  books.count(bytes.byteLength);
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
   if (head.type === "file") return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
@@ -249,22 +259,22 @@ byId("save-picture").addEventListener("click", () =>
 byId("save-checkpoint").addEventListener("click", () => say("save checkpoint"));
 byId("save-journal").addEventListener("click", () => say("save journal"));
 
-// --- A vent where a click says ---
+// --- A vent or a drain where a click says ---
 
-byId("add-vent").addEventListener("click", () => {
-  state.placing = !state.placing;
-  canvas.classList.toggle("placing", state.placing);
-  byId("add-vent").classList.toggle("on", state.placing);
-});
+function place(what) {
+  state.placing = state.placing === what ? null : what;
+  canvas.classList.toggle("placing", state.placing !== null);
+  for (const one of ["vent", "drain"]) byId(`add-${one}`).classList.toggle("on", state.placing === one);
+}
+for (const one of ["vent", "drain"]) byId(`add-${one}`).addEventListener("click", () => place(one));
 const showPick = panel.showPick.bind(panel);
 panel.showPick = (pick) => {
   showPick(pick);
   if (!state.placing || !pick.position) return;
-  state.placing = false;
-  canvas.classList.remove("placing");
-  byId("add-vent").classList.remove("on");
   const [x, y, z] = pick.position;
-  change("vent.add", x, y + 1, z, 3, 0.2, 0.9);
+  if (state.placing === "vent") change("vent.add", x, y + 1, z, 3, 0.2, 0.9);
+  else change("drain.add", x, y + 1, z, 3, 0.2);
+  place(null);
 };
 
 // --- Keys ---
