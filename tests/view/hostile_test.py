@@ -84,6 +84,20 @@ class HostileTest(unittest.TestCase):
         done = voxmelt("digest", self.scene, "--steps", steps, "--every", 1, cwd=self.path)
         return {int(line.split()[1]): line.split()[3] for line in done.stdout.splitlines()}
 
+    def answer(self, server, request):
+        """The first line of the answer to a request that ends there, or nothing."""
+        with server.connect() as link:
+            link.settimeout(60)  # the server's patience is less
+            link.sendall(request)
+            link.shutdown(socket.SHUT_WR)
+            data = b""
+            try:
+                while part := link.recv(65536):
+                    data += part
+            except ConnectionError:
+                pass
+            return data.split(b"\r\n")[0].decode()
+
     def test_nothing_changes(self):
         with Server(PROGRAM, self.scene, "--threads", 1, cwd=self.path) as server, Page(server) as page:
             step = page.rest(0)[0]["step"]
@@ -98,8 +112,8 @@ class HostileTest(unittest.TestCase):
                 self.assertEqual(page.rest(step)[0]["digest"], wanted[step], what)
 
             for request in evil:
-                head, _ = server.raw(request)
-                self.assertRegex(head[0], r"^$|^HTTP/1.1 (4\d\d|5\d\d)|^HTTP/1.1 426", request[:300])
+                head = self.answer(server, request)
+                self.assertRegex(head, r"^$|^HTTP/1.1 (4\d\d|5\d\d)|^HTTP/1.1 426", request[:300])
                 go_on(request[:200])
             for name, data in FRAMES.items():
                 with Page(server) as other:
