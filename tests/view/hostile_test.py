@@ -36,7 +36,7 @@ def requests(port):
     evil += [upgrade(port, host=h, origin=f"http://{h}") for h in (f"evil.example:{port}", f"127.0.0.1:{port + 1}", f"0.0.0.0:{port}",
                                                                   f"[::1]:{port}", f"127.1:{port}", f"2130706433:{port}", f"LOCALHOST.:{port}")]
     evil += [upgrade(port, origin=own, target=t) for t in ("/sockets", "/socket/", "/../socket", "/socket?x", "//socket", "/view.js/")]
-    evil += [upgrade(port, origin=own, version="8"), upgrade(port, origin=own, key="x"), upgrade(port, origin=own, key="")]
+    evil += [upgrade(port, origin=own, version="8")]
     evil += [get(port, t) for t in ("/../../etc/passwd", "/..%2f..%2fetc/passwd", "/%00", "/view.js%00.html", "/view.js/", "/page/view.js",
                                     "\\..\\etc", "/" + "a" * 5000, "*", "/?" + "a" * 7000 + "/../etc/passwd")]
     evil += [get(port, method=m) for m in ("POST", "PUT", "DELETE", "PATCH", "CONNECT", "OPTIONS", "TRACE", "EVIL")]
