@@ -173,7 +173,7 @@ class TexturesTest(unittest.TestCase):
             self.assertLess(first, textures.bytes(*textures.shapes), "air is not sent")
 
     def test_who_does_not_ask_gets_nothing(self):
-        with self.serve() as server, Page(server) as own, Page(server) as exact:
+        with self.serve() as server, Page(server) as exact, Page(server) as own:
             exact.rest(0)
             own.rest(0)
             own.send("exact 0")
@@ -183,8 +183,8 @@ class TexturesTest(unittest.TestCase):
             exact.rest(4)
             time.sleep(0.2)
             own.send("pick 1 1")  # its answer is the first thing that comes
-            while (heard := own.hear())[0] == "frame":
-                self.assertEqual(heard[1]["step"], 0, "a frame that nobody wanted")
+            while (heard := own.hear())[0] == "frame" or heard[1]["type"] == "books":
+                self.assertTrue(heard[0] == "text" or heard[1]["step"] == 0, "a frame that nobody wanted")
             self.assertEqual((heard[0], heard[1]["type"]), ("text", "pick"))
             self.assertEqual(textures.update()["step"], 4)
             exact.send("pick 1 1")
