@@ -7,6 +7,9 @@ const names = {
   "material.melting_point": "melting point", "material.latent_heat": "latent heat",
   "material.freezing_point": "freezing point", "flow.viscous.kappa": "mobility",
 };
+// These have few values, and those are whole numbers.
+const choices = { "flow.paper.neighbours": [4, 8], "heat.neighbours": [6, 18, 26], "heat.rays_per_face": [1, 4, 16] };
+const wholes = ["visibility_every", "in_liquid", "substeps", "substeps_max", "stages_max"];
 // These end at 1, and may be 0. The sliders of others go from a hundredth of the first value to a hundred times it.
 const parts = ["bottom", "top", "sky", "melting_point", "latent_heat", "freezing_point", "slump", "hang", "factor", "wall_factor"];
 
@@ -22,11 +25,24 @@ export class Numbers {
 
   row(key, value) {
     if (!this.first.has(key)) this.first.set(key, value || 1);
-    const part = parts.includes(key.split(".").at(-1)), whole = Number.isInteger(this.first.get(key)) && !part;
     const row = document.createElement("label"), text = document.createElement("span");
-    const shown = document.createElement("output"), input = document.createElement("input");
     row.className = "row";
     text.textContent = names[key] ?? key.split(".").slice(-2).join(" ").replaceAll("_", " ");
+    row.append(text, ...(choices[key] ? [this.choice(key, value)] : this.slider(key, value)));
+    return row;
+  }
+
+  choice(key, value) {
+    const select = document.createElement("select");
+    select.title = key;
+    for (const one of choices[key]) select.add(new Option(one, one, false, one === value));
+    select.addEventListener("change", () => this.change(key, Number(select.value)));
+    return select;
+  }
+
+  slider(key, value) {
+    const last = key.split(".").at(-1), part = parts.includes(last), whole = wholes.includes(last);
+    const shown = document.createElement("output"), input = document.createElement("input");
     shown.textContent = Number(value.toPrecision(4));
     const range = part ? { min: 0, max: 1, step: 0.005 } : { min: -2, max: 2, step: 0.01 };
     Object.assign(input, { type: "range", title: key, ...range });
@@ -37,7 +53,6 @@ export class Numbers {
       shown.textContent = Number(now.toPrecision(4));
       this.change(key, now);
     });
-    row.append(text, shown, input);
-    return row;
+    return [shown, input];
   }
 }
