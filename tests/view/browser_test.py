@@ -4,6 +4,7 @@
 Gestures of mouse, wheel, keys and panel change what they say; nothing is cut off from 320 x 480 to 3840 x 2160, light and
 dark; there is no error in the console. Skipped (77) without chromium, chromium-driver and python3-selenium."""
 import sys
+import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
