@@ -2,7 +2,7 @@
 """Liquid freezes, sets, clings, and matter glows in small states, step by step, as docs/automaton.md sections 6 to 11 give
 them by hand: every implementation and the oracle find the same.
 
-  hand_freeze_test.py VOXMELT ORACLE
+  hand_freeze_test.py VOXMELT ORACLE [--all]
 
 Liquid freezes below a heat of 10000 and solids melt from 20000 on, unless a case says otherwise. Nothing is conducted.
 Where a case has both laws, its liquid has no energy under the viscous one. There kappa is so small that nothing spreads.
@@ -16,6 +16,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
 from foreign_fields import CODES, write_fields
+from machines import of_hand_tests
 
 BOTH, PAPER, VISCOUS = ("paper", "viscous"), ("paper",), ("viscous",)
 MATERIAL = "material = { melting_point = 0.305181, freezing_point = 0.152591 }\n"
@@ -319,15 +320,9 @@ def offences_of(voxmelt, oracle, names, law, case, folder):
                 yield f"{name}, {law}: {term} is {ledgers[term]} by {program}, {value} by hand"
 
 
-def implementations(voxmelt):
-    """All but auto, which is one of them."""
-    names = [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
-    return [name for name in names if name != "auto"]
-
-
 def main():
-    voxmelt, oracle = sys.argv[1:]
-    names = implementations(voxmelt)
+    voxmelt, oracle = sys.argv[1:3]
+    names = of_hand_tests(voxmelt, sys.argv)
     wrong = []
     for case in CASES:
         for law in case[1]:

@@ -2,7 +2,7 @@
 """Bodies of several materials conduct, melt, carry liquid and fall in small states, step by step, as docs/automaton.md
 sections 6, 7, 10 and 15 give them by hand: every implementation and the oracle find the same.
 
-  hand_materials_test.py VOXMELT ORACLE [IMPLEMENTATION...]
+  hand_materials_test.py VOXMELT ORACLE [--all]
 
 Where a case has both laws, its liquid has no energy under the viscous one. There kappa is so small that nothing spreads,
 unless a case says otherwise. D(0) = 0, D(1) = 32768 and D(2) = 16384.
@@ -15,6 +15,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
 from foreign_fields import CODES, MATERIAL, write_fields
+from machines import of_hand_tests
 
 BOTH, PAPER, VISCOUS = ("paper", "viscous"), ("paper",), ("viscous",)
 STILL = "fall = { factor = 0, minimum = 0 }"
@@ -253,13 +254,9 @@ def offences_of(voxmelt, oracle, names, law, case, folder):
                 yield f"{name}, {law}: {term} is {judged[term]} by {program}, {value} by hand"
 
 
-def implementations(voxmelt):
-    return [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
-
-
 def main():
     voxmelt, oracle = sys.argv[1:3]
-    names = sys.argv[3:] or implementations(voxmelt)
+    names = of_hand_tests(voxmelt, sys.argv)
     wrong = []
     for case in CASES:
         for law in case[1]:

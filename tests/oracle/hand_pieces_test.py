@@ -2,7 +2,7 @@
 """Pieces fall in small states, step by step, as docs/automaton.md section 15 gives it by hand: every implementation and
 the oracle find the same.
 
-  hand_pieces_test.py VOXMELT ORACLE
+  hand_pieces_test.py VOXMELT ORACLE [--all]
 
 No liquid flows and no heat is conducted here, so that nothing but pieces moves. D(0) = 0 and D(2) = 16384.
 """
@@ -13,6 +13,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # a folder of bytecode here would fail oracle.independence
 from foreign_fields import CODES, write_fields
+from machines import of_hand_tests
 
 RULES = 'flow = { law = "paper", fall = { factor = 0, minimum = 0 }, paper = { share = 0 } }\nheat = { gamma = 0 }\n'
 # A sun straight above, that gives each cell it sees 1258 of irradiance, for two steps.
@@ -119,11 +120,6 @@ def write_scene(folder, drawing, pieces, border, first, rules):
     return scene
 
 
-def implementations(voxmelt):
-    lines = subprocess.run([voxmelt, "list", "implementations"], check=True, capture_output=True, text=True).stdout.splitlines()
-    return [line.split()[0] for line in lines if "not on this processor" not in line]
-
-
 def export(voxmelt, scene, steps, folder, *options):
     subprocess.run([voxmelt, "export", scene, "--quiet", "--steps", str(steps), "--out", folder, *options], check=True)
 
@@ -150,8 +146,8 @@ def offences_of(voxmelt, oracle, names, case, folder):
 
 
 def main():
-    voxmelt, oracle = sys.argv[1:]
-    names = implementations(voxmelt)
+    voxmelt, oracle = sys.argv[1:3]
+    names = of_hand_tests(voxmelt, sys.argv)
     wrong = []
     for case in CASES:
         with tempfile.TemporaryDirectory() as folder:

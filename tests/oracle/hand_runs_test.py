@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """One step of small viscous states, as docs/automaton.md gives them by hand: every implementation and the oracle find the same.
 
-  hand_runs_test.py VOXMELT ORACLE
+  hand_runs_test.py VOXMELT ORACLE [--all]
 
 Nothing conducts here (weights of 0). With kappa = 0.05 mobility_parameter is 47721859. Then raw is 11110, 13443,
 186414, 288546 and 745654 for M = 1000, 1100, 4096, 5096 and 8192, and no limit cuts it. With kappa = 1
@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from machines import of_hand_tests
 
 FIELDS = {"solid": "B", "liquid": "B", "inert": "B", "amount": "H", "energy": "H", "heat": "H"}
 VISCOUS = 'flow = { law = "viscous", viscous = { kappa = 0.05, substeps = 1 } }\nheat = { gamma = 1e-9 }\n'
@@ -371,11 +372,6 @@ def write_scene(folder, size, cells, rules, first):
     return scene
 
 
-def implementations(voxmelt):
-    lines = subprocess.run([voxmelt, "list", "implementations"], check=True, capture_output=True, text=True).stdout.splitlines()
-    return [line.split()[0] for line in lines if "not on this processor" not in line]
-
-
 def amounts_and_heats(folder):
     return list(zip(read_field(folder / "amount.npy"), read_field(folder / "heat.npy")))
 
@@ -408,8 +404,8 @@ def after_one_step(voxmelt, oracle, names, folder, scene):
 
 
 def main():
-    voxmelt, oracle = sys.argv[1:]
-    names = implementations(voxmelt)
+    voxmelt, oracle = sys.argv[1:3]
+    names = of_hand_tests(voxmelt, sys.argv)
     wrong = 0
     for name, size, cells, rules, first, expected, *counted in CASES:
         with tempfile.TemporaryDirectory() as folder:
