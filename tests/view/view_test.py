@@ -267,6 +267,29 @@ class ViewTest(unittest.TestCase):
                         self.assertIn(cell, range(side))
                 time.sleep(0.1)  # not too many lines a second
 
+    def test_three_numbers_are_x_y_and_z(self):
+        """A journal that swapped two of them would swap them again when it is read, so a scene file is the judge."""
+        vent = "[[vent]]\nat = [4, 9, 15]\nradius = 2.5\nrate = 0.5\ntemperature = 0.8\n"
+        drain = "[[drain]]\nat = [13, 5, 7]\nradius = 3.5\nrate = 0.25\n"
+        sun = '[[heat_source]]\nkind = "directional"\ndirection = [1, 7, 3]\npower = 2\n'
+        written = SCENE.replace("at = [14, 12, 14]", "at = [3, 12, 17]").replace("[flow]", sun + vent + drain + "[flow]")
+        self.assertNotEqual(written, SCENE)
+        alone = digests(None, "digest", write(self.path, written, "written.toml"), "--steps", 40, cwd=self.path)[40]
+        with self.serve() as server, Page(server) as page:
+            page.rest(0)
+            page.send("change heat_source.0.at 3 12 17")
+            self.assertEqual(page.text("world")["heat_sources"][0]["keyframes"][0]["at"], [3, 12, 17])
+            for line in ("heat_source.add_sun 1 7 3 2", "vent.add 4 9 15 2.5 0.5 0.8", "drain.add 13 5 7 3.5 0.25"):
+                page.send("change " + line)
+                world = page.text("world")
+            self.assertEqual(world["vents"][0]["at"], [4, 9, 15])
+            self.assertEqual(world["drains"][0]["at"], [13, 5, 7])
+            page.send("camera 10 20 30 4 5 6")
+            while page.rest()[0]["camera"]["target"] != [4, 5, 6]:
+                pass
+            page.send("step 40")
+            self.assertEqual(page.rest(40)[0]["digest"], alone)
+
     def test_it_ends_by_signals(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             with self.serve() as server, Page(server) as page:
