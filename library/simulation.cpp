@@ -115,6 +115,7 @@ State Simulation::state() const {
           fields_of(v, g)};
 }
 
+std::int64_t Simulation::loose_cells() const { return parts_->simulation.loose_cells(); }
 std::uint64_t Simulation::digest() const { return state::digest(parts_->simulation.volume()); }
 
 Ledgers Simulation::ledgers() const {

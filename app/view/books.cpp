@@ -45,6 +45,7 @@ std::string books_of(const Simulation& simulation, std::size_t kept) {
                {{"mass", to_string(books.mass.drift())},
                 {"energy", to_string(books.energy.drift())},
                 {"heat", to_string(books.heat.drift())}}},
+              {"loose_cells", simulation.loose_cells()},
               {"kept_bytes", kept}}
       .dump();
 }

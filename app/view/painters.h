@@ -29,11 +29,6 @@ class Painters {
     for (auto& [client, page] : pages_) page.behind = true;
   }
 
-  // Another run has taken the place of this one. Versions of textures that pages hold mean nothing any more.
-  void forget_versions() {
-    for (auto& [client, page] : pages_) page.lost = true;
-  }
-
   // Tells whether a frame is wanted. Somebody may come for it at any time if nobody is here.
   bool draw_exact() const { return pages_.empty() || !exact_pages().empty(); }
   std::vector<Client> exact_pages() const {
@@ -49,14 +44,13 @@ class Painters {
     for (auto& [client, page] : pages_) {
       if (!page.asks || !page.behind) continue;
       page.asks = page.behind = false;  // also if it cannot be sent
-      send(client, page.lost ? 0 : page.held);
-      page.lost = false;
+      send(client, page.held);
     }
   }
 
  private:
   struct Page {
-    bool exact = true, asks = false, behind = true, lost = false;
+    bool exact = true, asks = false, behind = true;
     std::uint64_t held = 0;
   };
   std::map<Client, Page> pages_;

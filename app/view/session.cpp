@@ -281,7 +281,6 @@ void Session::go_back(std::uint32_t step) {
 void Session::cut_at(std::uint32_t step) {
   std::erase_if(changes_, [&](const journal::Line& line) { return line.step >= step; });
   past_.cut(step);
-  painters_.forget_versions();
   if (journal_) journal_->seek(step);
   if (record_) record_->restart(changes_);
   playing_ = false;

@@ -125,6 +125,9 @@ class Simulation {
   std::uint64_t digest() const;
   /// Returns the books up to now. This takes a pass over the state.
   Ledgers ledgers() const;
+  /// Counts the solid cells of pieces that nothing holds (docs/automaton.md, section 15), in any scene. They
+  /// fall or float where the scene says `[pieces]`. This takes a pass over the state.
+  std::int64_t loose_cells() const;
   /// Lists the bricks that may have changed since `version`, which an earlier call gave. Use 0 if there was
   /// no call. After restart() all bricks count as changed.
   Changes changes(std::uint64_t version = 0);

@@ -129,6 +129,8 @@ void Simulation::begin_step() {
   if (host_ != nullptr) cadence_ = count_substeps();  // a device counts its own
 }
 
+std::int64_t Simulation::loose_cells() const { return scalar::loose_cells(volume()); }
+
 void Simulation::let_pieces_fall() {
   volume_.changed.begin();
   if (!(host_ != nullptr ? host_->let_pieces_fall(step_number(), volume_) : let_pieces_fall_for_device()))

@@ -74,6 +74,7 @@ class Simulation {
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
   int threads() const { return threads_; }  // in use, if the implementation divides work among them
+  std::int64_t loose_cells() const;  // solid cells of pieces that nothing holds, by a pass over all solids
   state::Drift drift() const { return state::drift(ledger(), volume()); }
 
   // Returns the volume that the next step begins with, for tests that plant a leak.

@@ -45,6 +45,32 @@ void expect_same(Simulation& a, Simulation& b, int steps) {
   }
 }
 
+// Two cubes: one stands on the floor, one hangs three cells above it, and falls by one of them a step.
+TEST_F(Running, LooseCellsAreThoseThatNothingHolds) {
+  const std::string world = R"([grid]
+size = [16, 12, 8]
+[[inert]]
+shape = "floor"
+thickness = 2
+[[solid]]
+shape = "box"
+size = [3, 3, 3]
+at = [3.5, 3.5, 3.5]
+[[solid]]
+shape = "box"
+size = [2, 3, 4]
+at = [11, 6.5, 4]
+)";
+  Simulation hangs(write("hangs.toml", world)), falls(write("falls.toml", world + "[pieces]\n"));
+  EXPECT_EQ(hangs.state().solid.count(), 27u + 24u);
+  for (const int loose : {24, 24, 24, 0}) {
+    EXPECT_EQ(hangs.loose_cells(), 24);
+    EXPECT_EQ(falls.loose_cells(), loose) << "after step " << falls.steps_done();
+    hangs.step();
+    falls.step();
+  }
+}
+
 TEST_F(Running, AStopEndsBetweenTwoSteps) {
   Simulation simulation(file), other(file);
   std::stop_source source;

@@ -42,6 +42,19 @@ Piece piece_of(const state::Volume& volume, Place start, state::BitPlane& seen) 
   return piece;
 }
 
+template <class Visit>
+void for_each_loose_piece(const state::Volume& volume, const Visit& visit) {
+  const state::Grid grid = volume.grid;
+  state::BitPlane seen(grid);
+  for (int z = 0; z < grid.z; ++z)
+    for (int y = 0; y < grid.y; ++y)
+      for (int x = 0; x < grid.x; ++x) {
+        if (!volume.solid.test(x, y, z) || seen.test(x, y, z)) continue;
+        const Piece piece = piece_of(volume, {x, y, z}, seen);
+        if (!piece.held) visit(piece);
+      }
+}
+
 rule::PieceCounts count(const state::Volume& volume, const Piece& piece) {
   struct Layer {
     std::int64_t cells = 0, open = 0, full = 0;
@@ -109,20 +122,22 @@ void turn_columns(state::Volume& volume, const state::BitPlane& moving) {
 
 std::optional<state::BitPlane> falling_cells(const rule::Pieces& pieces, std::uint32_t step,
                                              const state::Volume& volume) {
-  const state::Grid grid = volume.grid;
-  state::BitPlane seen(grid), moving(grid);
+  state::BitPlane moving(volume.grid);
   bool any = false;
-  for (int z = 0; z < grid.z; ++z)
-    for (int y = 0; y < grid.y; ++y)
-      for (int x = 0; x < grid.x; ++x) {
-        if (!volume.solid.test(x, y, z) || seen.test(x, y, z)) continue;
-        const Piece piece = piece_of(volume, {x, y, z}, seen);
-        if (piece.held || !rule::piece_moves(count(volume, piece), pieces, step)) continue;
-        for (const Place& at : piece.cells) moving.set(at.x, at.y, at.z, true);
-        any = true;
-      }
+  for_each_loose_piece(volume, [&](const Piece& piece) {
+    if (!rule::piece_moves(count(volume, piece), pieces, step)) return;
+    for (const Place& at : piece.cells) moving.set(at.x, at.y, at.z, true);
+    any = true;
+  });
   if (!any) return {};
   return moving;
+}
+
+std::int64_t loose_cells(const state::Volume& volume) {
+  std::int64_t cells = 0;
+  for_each_loose_piece(volume,
+                       [&](const Piece& piece) { cells += static_cast<std::int64_t>(piece.cells.size()); });
+  return cells;
 }
 
 bool let_pieces_fall(const rule::Pieces& pieces, std::uint32_t step, state::Volume& volume) {

@@ -14,6 +14,9 @@ namespace voxmelt::scalar {
 std::optional<state::BitPlane> falling_cells(const rule::Pieces& pieces, std::uint32_t step,
                                              const state::Volume& volume);
 
+// Counts the cells of all loose pieces, whether they move or not.
+std::int64_t loose_cells(const state::Volume& volume);
+
 // Lets the loose pieces fall by a cell, as the first thing in a step. It tells if any has moved.
 bool let_pieces_fall(const rule::Pieces& pieces, std::uint32_t step, state::Volume& volume);
 
