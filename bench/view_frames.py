@@ -4,6 +4,7 @@
 A page without a browser plays each scene from the middle of its melting, at 640 x 480 and three steps a frame, and takes every
 frame. So this is what the server alone gives, on the exact painter. Each row is the best of three seconds-long plays. With
 --browser a headless Chromium shows the page on the same processors: what is left is what a user sees."""
+import os
 import sys
 import time
 from pathlib import Path
@@ -17,12 +18,18 @@ SCENES = {"cello": 1000, "goblet": 600, "lava": 600}
 PLAYS, SECONDS = 3, 4.0
 
 
-def played(page):
-    """Frames a second, mean bytes of a frame, and mean milliseconds of its parts, of one play."""
+def processor_seconds(server):
+    """What the server has used."""
+    words = Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def played(server, page):
+    """Frames a second, mean bytes of a frame, mean milliseconds of its parts, and busy processors, of one play."""
     page.send("play 1")
     while page.hear()[0] != "frame":
         pass
-    frames, size, parts, begin = 0, 0, {}, time.monotonic()
+    frames, size, parts, begin, used = 0, 0, {}, time.monotonic(), processor_seconds(server)
     while time.monotonic() - begin < SECONDS:
         heard = page.hear()
         if heard[0] != "frame" or not heard[1]["playing"]:
@@ -31,10 +38,10 @@ def played(page):
         size += len(heard[2])
         for part, ms in heard[1]["ms"].items():
             parts[part] = parts.get(part, 0) + ms
-    seconds = time.monotonic() - begin
+    seconds, used = time.monotonic() - begin, processor_seconds(server) - used
     page.send("play 0")
     page.rest()
-    return frames / seconds, size / frames, {part: ms / frames for part, ms in parts.items()}
+    return frames / seconds, size / frames, {part: ms / frames for part, ms in parts.items()}, used / seconds
 
 
 def in_browser(server):
@@ -47,15 +54,17 @@ def in_browser(server):
         wide, high = driver.execute_script("const box = document.getElementById('stage').getBoundingClientRect(); return [box.width, box.height]")
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": round(1200 + 640 - wide), "height": round(900 + 480 - high),
                                                                       "deviceScaleFactor": 1, "mobile": False})
-        count = "return document.getElementById('picture').dataset.step | 0"
-        shown = lambda: int(driver.execute_script(count))
+        driver.execute_script("""window.shown = 0;
+            new MutationObserver(() => ++window.shown).observe(document.getElementById('picture'),
+                                                               {attributes: true, attributeFilter: ['data-step']});""")
+        shown = lambda: driver.execute_script("return window.shown")
         while shown() == 0:
             time.sleep(0.1)
         driver.execute_script("document.getElementById('play').click()")
         time.sleep(1.5)
         first, begin = shown(), time.monotonic()
         time.sleep(SECONDS)
-        return (shown() - first) / 3 / (time.monotonic() - begin)
+        return (shown() - first) / (time.monotonic() - begin)
     finally:
         driver.quit()
 
@@ -63,7 +72,7 @@ def in_browser(server):
 def main():
     words = [word for word in sys.argv[1:] if word != "--browser"]
     program = str(Path(words[0] if words else ROOT / "build/release/app/voxmelt").resolve())
-    print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode |\n|---|---|---|---|---|")
+    print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n|---|---|---|---|---|---|")
     for scene in words[1:] or SCENES:
         with Server(program, scene, cwd=ROOT) as server:
             with Page(server) as page:
@@ -73,10 +82,10 @@ def main():
                 page.send(f"step {SCENES.get(scene, 300)}")
                 page.rest(SCENES.get(scene, 300))
                 page.send("speed 3")
-                rate, size, ms = max((played(page) for _ in range(PLAYS)), key=lambda play: play[0])
+                rate, size, ms, busy = max((played(server, page) for _ in range(PLAYS)), key=lambda play: play[0])
             parts = ", ".join(f"{ms[part]:.1f}" for part in ("step", "draw", "encode"))
             shown = f", {in_browser(server):.1f} in Chromium" if "--browser" in sys.argv else ""
-            print(f"| `{scene}` | {SCENES.get(scene, 300)} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} |", flush=True)
+            print(f"| `{scene}` | {SCENES.get(scene, 300)} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |", flush=True)
 
 
 main()
