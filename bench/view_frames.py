@@ -3,7 +3,8 @@
 
 A page without a browser plays each scene from the middle of its melting, at 640 x 480 and three steps a frame, and takes every
 frame. So this is what the server alone gives, on the exact painter. Each row is the best of three seconds-long plays. With
---browser a headless Chromium shows the page on the same processors: what is left is what a user sees."""
+--browser a headless Chromium shows the page on the same processors: what is left is what a user sees. The second table is of
+pages that draw by themselves, from textures: what the server does for a frame, and what it sends."""
 import os
 import sys
 import time
@@ -13,9 +14,10 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tests" / "view"))
 from page import Page, Server
+from textures import Textures
 
 SCENES = {"cello": 1000, "goblet": 600, "lava": 600}
-PLAYS, SECONDS = 3, 4.0
+PLAYS, SECONDS, UPDATES, STEPS = 3, 4.0, 40, 3
 
 
 def processor_seconds(server):
@@ -42,6 +44,25 @@ def played(server, page):
     page.send("play 0")
     page.rest()
     return frames / seconds, size / frames, {part: ms / frames for part, ms in parts.items()}, used / seconds
+
+
+def updates(page, step):
+    """Of frames from textures: the least milliseconds of the update and of packing, and the mean bytes, packed and as a share of all textures."""
+    textures = Textures(page)
+    page.send("exact 0")
+    textures.update()
+    volume = textures.bytes(*textures.shapes)
+    heads, packed, raw = [], 0, 0
+    for _ in range(UPDATES):
+        page.send(f"step {STEPS}")
+        step += STEPS
+        while (head := textures.update())["step"] != step:
+            pass
+        heads.append(head["ms"])
+        packed += textures.packed
+        raw += sum(len(data) for data in textures.sent.values())
+    least = lambda part: min(ms[part] for ms in heads)
+    return least("step"), least("draw"), least("encode"), packed / UPDATES, raw / UPDATES / volume
 
 
 def in_browser(server):
@@ -72,20 +93,29 @@ def in_browser(server):
 def main():
     words = [word for word in sys.argv[1:] if word != "--browser"]
     program = str(Path(words[0] if words else ROOT / "build/release/app/voxmelt").resolve())
-    print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n|---|---|---|---|---|---|")
+    drawn, sent = [], []
     for scene in words[1:] or SCENES:
+        first = SCENES.get(scene, 300)
         with Server(program, scene, cwd=ROOT) as server:
             with Page(server) as page:
                 page.rest(0)
                 page.send("size 640 480")
                 page.send("speed 100")
-                page.send(f"step {SCENES.get(scene, 300)}")
-                page.rest(SCENES.get(scene, 300))
-                page.send("speed 3")
+                page.send(f"step {first}")
+                page.rest(first)
+                page.send(f"speed {STEPS}")
+                least = updates(page, first)
+                page.send("exact 1")
+                page.rest()
                 rate, size, ms, busy = max((played(server, page) for _ in range(PLAYS)), key=lambda play: play[0])
             parts = ", ".join(f"{ms[part]:.1f}" for part in ("step", "draw", "encode"))
             shown = f", {in_browser(server):.1f} in Chromium" if "--browser" in sys.argv else ""
-            print(f"| `{scene}` | {SCENES.get(scene, 300)} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |", flush=True)
+            drawn.append(f"| `{scene}` | {first} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |")
+            sent.append(f"| `{scene}` | {first} | {least[0]:.2f} | {least[1]:.2f} | {least[2]:.2f} | {least[3] / 1000:.1f} | {least[4]:.1%} |")
+    print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n|---|--:|--:|--:|--:|--:|")
+    print("\n".join(drawn))
+    print("\n| scene | from step | step, ms | update, ms | pack, ms | KB a frame | of all textures, unpacked |\n|---|--:|--:|--:|--:|--:|--:|")
+    print("\n".join(sent))
 
 
 main()
