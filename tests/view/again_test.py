@@ -155,18 +155,19 @@ class AgainTest(unittest.TestCase):
                 last = page.rest(steps[3] + 9)[0]["digest"]
                 page.send(f"back {steps[3] + 10}")
                 self.assertIn("error: wants a whole number", page.text("refused")["why"])
-                page.send("step 50")  # beyond states that were kept before, of what does not come now
-                page.rest(steps[3] + 59)
-                page.send(f"back {steps[3] + 55}")
-                later = page.rest(steps[3] + 55)[0]["digest"]
-                page.send(f"back {steps[3] + 56}")
+                end = steps[-1] - 2  # states that were kept up to there are of what does not come now
+                page.send(f"step {end + 3 - steps[3] - 9}")
+                page.rest(end + 3)
+                page.send(f"back {end}")
+                later = page.rest(end)[0]["digest"]
+                page.send(f"back {end + 1}")
                 self.assertIn("error: wants a whole number", page.text("refused")["why"])
                 for wrong in ("back", "back -1", "back 1.5", "back nan"):
                     page.send(wrong)
                     self.assertEqual(page.text("refused")["line"], wrong)
                 self.assertEqual(server.end(), (0, ""))
-            again = digests("view", self.scenes[law], "--headless", "--journal", "journal.txt", "--steps", steps[3] + 55, "--every", 1, cwd=self.path)
-            self.assertEqual((again[steps[3] + 9], again[steps[3] + 55]), (last, later))
+            again = digests("view", self.scenes[law], "--headless", "--journal", "journal.txt", "--steps", end, "--every", 1, cwd=self.path)
+            self.assertEqual((again[steps[3] + 9], again[end]), (last, later))
 
     def test_back_in_a_run_that_began_from_a_checkpoint(self):
         with Server(PROGRAM, self.scenes["paper"], cwd=self.path) as server, Page(server) as page:
