@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import shlex
 import signal
@@ -93,6 +94,12 @@ class Build:
                 yield source
 
 
+def archive_of(name):
+    """The archive in which this object lies: .../CMakeFiles/TARGET.dir/... is in libTARGET.a."""
+    target = re.search(r"CMakeFiles/([^/]+)\.dir/", name)
+    return f"lib{target[1]}.a" if target else None
+
+
 class Overlay:
     """A change on its way: the changed file, its objects, its programs."""
 
@@ -134,7 +141,9 @@ class Overlay:
         changed = {self.build.object_of(s): str(self.objects[s]) for s in sources}
         target = self.folder / "bin" / pathlib.Path(program).name
         at = words.index("-o")
-        extra = [o for name, o in changed.items() if name not in own]
+        # An object goes along only if its library does: it may want what the program does not have.
+        libraries = {pathlib.Path(w).name for w in words if w.endswith(".a")}
+        extra = [o for name, o in changed.items() if name not in own and archive_of(name) in libraries]
         words = [changed.get(w, w) for w in words[:at]] + extra + ["-o", str(target)] + words[at + 2:]
         result = subprocess.run(words, cwd=self.build.folder, text=True, capture_output=True)
         if result.returncode != 0:
