@@ -81,6 +81,7 @@ std::vector<scene::Scene> load_scenes(const Common& common, const std::vector<st
     Common one = common;
     one.scene = name;
     scenes.push_back(load_scene(one));
+    refuse_changes(scenes.back(), "bench");
   }
   return scenes;
 }

@@ -124,6 +124,7 @@ int run_explore(ExploreCommand command) {
   question.memory = find_memory(command.memory);
   question.steps = command.steps;
   scene::Scene scene = load_scene(common);
+  refuse_changes(scene, "explore");
   keep_inputs(scene, {{"--report", common.report}, {"--out", command.out}});
   check_report_place(common, command.out);
   std::optional<io::OutputFolder> out;

@@ -15,6 +15,7 @@
 #include "app/options.h"
 #include "app/print.h"
 #include "app/report.h"
+#include "app/run_journal.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 
@@ -43,7 +44,9 @@ int run_export(const ExportOptions& options) {
   io::OutputFolder out(options.out);
   end_soon_at_interrupts();
   run::Simulation simulation = make_simulation(scene, options.common);
+  RunJournal journal(scene, simulation);
   while (simulation.steps_done() < options.steps) {
+    journal.apply();
     simulation.step();
     stop_if_interrupted();
   }
@@ -54,6 +57,7 @@ int run_export(const ExportOptions& options) {
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
   io::write_file(out.partial() / "fields.json", io::fields_json(volume));
+  scene.settings = journal.settings();
   io::write_file(out.partial() / "scene.toml", scene_toml(scene, options.format, simulation.step_number()));
   write_report(options.common, report_json(scene, options.common, simulation, {}));
   out.commit();

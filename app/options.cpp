@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -112,6 +113,16 @@ scene::Scene load_scene(const Common& common) {
   scene::Scene scene = scene::load(file, sets);
   say_warnings(common, scene.warnings);
   return scene;
+}
+
+void refuse_changes(const scene::Scene& scene, const char* command) {
+  const std::uint64_t next =
+      std::uint64_t{scene.first_step} + (scene.mid_run ? scene.mid_run->steps_done : 0);
+  if (!scene.changes.empty() && scene.changes.back().step >= next)
+    throw UsageError(
+        fmt::format("{}: error: `voxmelt {}` makes no [[change]]; a checkpoint after the last of "
+                    "them will do",
+                    scene.changes.back().place, command));
 }
 
 void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings) {

@@ -40,6 +40,8 @@ void add_common(Command command, Common& common);
 std::filesystem::path find_scene(const std::string& given);
 // Loads a scene from a path, or by the name of a scene that came with the program.
 scene::Scene load_scene(const Common& common);
+// Refuses a scene that will still change itself ([[change]]). Throws UsageError.
+void refuse_changes(const scene::Scene& scene, const char* command);
 // Adds warnings to those of the scene, which the report lists, and prints them.
 void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings);
 const step::Implementation& find_implementation(const Common& common);  // throws UsageError

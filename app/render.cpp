@@ -20,6 +20,7 @@
 #include "app/print.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/run_journal.h"
 #include "app/surface_pictures.h"
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
@@ -127,9 +128,11 @@ scene::Scene load_view(const RenderOptions& options) {
   return scene;
 }
 
-void run_to(run::Simulation& simulation, const RenderOptions& options) {
+void run_to(scene::Scene& scene, run::Simulation& simulation, const RenderOptions& options) {
+  RunJournal journal(scene, simulation);
   Progress progress(options.steps, options.common.quiet);
   while (simulation.steps_done() < options.steps) {
+    journal.apply();
     simulation.step();
     stop_if_interrupted();
     progress.show(simulation.steps_done(), simulation.volume());
@@ -190,7 +193,7 @@ int run_render(RenderOptions options) {
   catch_interrupts();
 
   run::Simulation simulation = make_simulation(scene, options.common);
-  run_to(simulation, options);
+  run_to(scene, simulation, options);
   warn_of_limit(scene, options.common, simulation);
   const auto report = [&] { return report_json(scene, options.common, simulation, {}); };
   const render::Setting setting = options.setting == "fast"   ? render::Setting::fast

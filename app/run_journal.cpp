@@ -2,6 +2,7 @@
 
 #include "app/message.h"
 #include "kernel/scene/scene.h"
+#include "library/journal/timeline.h"
 #include "voxmelt/errors.h"
 
 namespace voxmelt::app {
@@ -36,13 +37,21 @@ std::string journal_text(const std::string& file) {
 
 RunJournal::RunJournal(const std::string& text, const std::string& name, scene::Scene& scene,
                        run::Simulation& simulation)
-    : by_hand_(scene, simulation), world_(by_hand_), reader_(journal::parse_journal(text, name)) {
+    : by_hand_(scene, simulation),
+      world_(by_hand_),
+      reader_(journal::parse_journal(text, name)),
+      timeline_(in_our_errors([&] { return journal::timeline_of(scene); })) {
   reader_.seek(simulation.steps_done());
+  timeline_.seek(simulation.steps_done());
 }
 
 bool RunJournal::apply() {
   bool any = false;
-  in_our_errors([&] { reader_.apply(world_, [&](const journal::Change&) { any = true; }); });
+  const auto tell = [&](const journal::Change&) { any = true; };
+  in_our_errors([&] {
+    reader_.apply(world_, tell);
+    timeline_.apply(world_, tell);
+  });
   return any;
 }
 

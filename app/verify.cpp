@@ -40,6 +40,7 @@ fs::path find_preset(const std::string& given) {
 // Reads --from.
 scene::Scene load_beginning(VerifyCommand& command) {
   Beginning begin = begin_from(command.common, command.from_text);
+  refuse_changes(begin.scene, "verify");
   command.from = begin.steps;
   return std::move(begin.scene);
 }

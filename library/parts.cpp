@@ -10,6 +10,7 @@
 #include "kernel/run/opening/checkpoint_scene.h"
 #include "kernel/run/opening/opening.h"
 #include "kernel/run/trial/fastest.h"
+#include "library/journal/timeline.h"
 
 namespace voxmelt {
 namespace {
@@ -40,7 +41,11 @@ Simulation::Parts::Parts(const std::filesystem::path& file, const Options& optio
       options_(options),
       opened_(open(file, options)),
       simulation(begin(opened_.scene)),
-      by_hand(opened_.scene, simulation) {}
+      by_hand(opened_.scene, simulation),
+      world_(by_hand),
+      timeline_(journal::timeline_of(opened_.scene)) {
+  timeline_.seek(simulation.steps_done());
+}
 
 Simulation::Parts::Opened Simulation::Parts::open(const std::filesystem::path& file, const Options& options) {
   Opened opened;
@@ -66,8 +71,17 @@ void Simulation::Parts::restart() {
   Opened again = open(file_, options_);
   if (again.digest != opened_.digest || again.scene.first_step != opened_.scene.first_step)
     throw InputError("restart: error: " + file_.string() + " has changed: it gives another first state");
-  again.scene.parameters = opened_.scene.parameters;
+  // A scene that changes itself begins with its own numbers, or the changes would be made twice.
+  const bool changes_itself = !again.scene.changes.empty();
+  if (!changes_itself) again.scene.parameters = opened_.scene.parameters;
   simulation = begin(again.scene);
+  if (changes_itself) opened_ = std::move(again);
+  timeline_.seek(simulation.steps_done());
+}
+
+void Simulation::Parts::step() {
+  timeline_.apply(world_);
+  simulation.step();
 }
 
 void Simulation::Parts::save(const std::filesystem::path& place) const {

@@ -9,6 +9,8 @@
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "library/by_hand.h"
+#include "library/journal/journal.h"
+#include "library/journal/world.h"
 #include "library/version_numbers.h"
 #include "render/packet/picture.h"
 #include "render/textures/picture_textures.h"
@@ -20,6 +22,7 @@ class Simulation::Parts {
  public:
   Parts(const std::filesystem::path& file, const Options& options);
 
+  void step();  // and the scene's changes before it
   void restart();
   void save(const std::filesystem::path& place) const;
   Changes changes(std::uint64_t since);
@@ -52,6 +55,8 @@ class Simulation::Parts {
   const scene::Scene& scene() const { return opened_.scene; }
 
  private:
+  journal::WorldOf<library::ByHand> world_;
+  journal::Reader timeline_;  // changes of the scene
   render::Picture picture_;
   render::PictureTextures textures_;
   library::VersionNumbers versions_;

@@ -13,6 +13,7 @@
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/change.h"
+#include "kernel/scene/timeline.h"
 #include "library/ledgers.h"
 #include "library/parts.h"
 #include "library/translate.h"
@@ -65,6 +66,12 @@ std::vector<Format> formats() {
 
 std::vector<std::string> changeable_keys() { return scene::changeable_keys(); }
 
+std::string with_changes(const std::string& scene_text, const std::vector<SceneChange>& more) {
+  std::vector<scene::Change> changes;
+  for (const SceneChange& one : more) changes.push_back({one.steps_done, one.what});
+  return translated([&] { return scene::with_timeline(scene_text, changes); });
+}
+
 Simulation::Simulation(const std::filesystem::path& scene, const Options& options)
     : parts_(translated([&] { return std::make_unique<Parts>(scene, options); })) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -86,7 +93,7 @@ std::uint32_t Simulation::step(std::uint32_t count, const std::stop_token& stop,
                      std::to_string(last - step_number()) + ": step numbers end at " + std::to_string(last));
   std::uint32_t done = 0;
   while (done < count && !stop.stop_requested()) {
-    translated([&] { parts_->simulation.step(); });
+    translated([&] { parts_->step(); });
     ++done;
     if (progress) progress(done, count);
   }
@@ -96,6 +103,8 @@ std::uint32_t Simulation::step(std::uint32_t count, const std::stop_token& stop,
 void Simulation::restart() {
   translated([&] { parts_->restart(); });
 }
+
+const std::string& Simulation::scene_text() const { return parts_->scene().text; }
 
 Grid Simulation::grid() const {
   const state::Grid g = parts_->simulation.volume().grid;

@@ -20,7 +20,6 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/journal/journal.h"
 #include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
@@ -28,6 +27,7 @@
 #include "app/run_program.h"
 #include "app/view/server.h"
 #include "app/view/session.h"
+#include "library/journal/journal.h"
 
 extern char** environ;
 

@@ -79,6 +79,7 @@ Session::Session(Open open, std::string scene, Send send)
       simulation_(open_({})),
       first_(simulation_.steps_done()),
       scene_(std::move(scene)),
+      scene_text_(simulation_.scene_text()),
       send_(std::move(send)) {}
 
 void Session::stop() {
@@ -233,21 +234,32 @@ void Session::write_down(const journal::Change& change) {
   if (record_) record_->write(simulation_.steps_done(), change);
 }
 
+// Changes of a journal become those of a scene, [[change]].
+std::string Session::scene_with_changes() const {
+  if (scene_text_.empty())
+    throw InputError("error: this run began from a checkpoint; a scene begins at its first state");
+  std::vector<SceneChange> changes;
+  for (const journal::Line& line : changes_) changes.push_back({line.step, journal::text_of(line.change)});
+  return with_changes(scene_text_, changes);
+}
+
 void Session::save(Client client, std::string_view what) {
-  std::string bytes;
+  const std::string stem = std::filesystem::path(scene_).stem().string();
+  std::string bytes, name;
   if (what == "journal") {
     bytes = fmt::format("# voxmelt journal of {}\n{}", scene_, journal::text_of(changes_));
+    name = stem + ".journal.txt";
+  } else if (what == "scene") {
+    bytes = scene_with_changes();
+    name = stem + "-by-hand.toml";
   } else if (what == "checkpoint") {
     const Scratch scratch;
     simulation_.save(scratch.file());
     bytes = scratch.bytes();
+    name = fmt::format("{}-{:06d}.checkpoint", stem, simulation_.steps_done());
   } else {
-    throw InputError("error: wants `checkpoint` or `journal`");
+    throw InputError("error: wants `checkpoint`, `journal` or `scene`");
   }
-  const std::string stem = std::filesystem::path(scene_).stem().string();
-  const std::string name = what == "journal"
-                               ? fmt::format("{}.journal.txt", stem)
-                               : fmt::format("{}-{:06d}.checkpoint", stem, simulation_.steps_done());
   const json head{{"type", "file"}, {"name", name}, {"step", simulation_.steps_done()}};
   const std::string text = head.dump(-1, ' ', true, json::error_handler_t::replace);
   send_(client, binary(Message::Kind::file, text, bytes));
@@ -392,14 +404,21 @@ std::string Session::header(const char* type, Quality quality, bool exact) const
 
 void Session::tell_world(std::optional<Client> client) {
   json sources = json::array(), vents = json::array(), drains = json::array();
+  const auto is_open = [step = simulation_.step_number()](const auto& one) {
+    return one.from <= step && step < one.until;
+  };
   for (const HeatSource& source : simulation_.heat_sources()) sources.push_back(source_json(source));
   for (const Vent& vent : simulation_.vents())
     vents.push_back({{"at", array_of(vent.at)},
                      {"radius", vent.radius},
                      {"rate", vent.rate},
-                     {"temperature", vent.temperature}});
+                     {"temperature", vent.temperature},
+                     {"open", is_open(vent)}});
   for (const Drain& drain : simulation_.drains())
-    drains.push_back({{"at", array_of(drain.at)}, {"radius", drain.radius}, {"rate", drain.rate}});
+    drains.push_back({{"at", array_of(drain.at)},
+                      {"radius", drain.radius},
+                      {"rate", drain.rate},
+                      {"open", is_open(drain)}});
   const Grid grid = simulation_.grid();
   tell(client, json{{"type", "world"},
                     {"scene", scene_},

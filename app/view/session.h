@@ -7,7 +7,8 @@
 //   back STEP           to this step again; what came later is forgotten
 //   camera AZIMUTH ELEVATION DISTANCE X Y Z  home                  size WIDTH HEIGHT
 //   best                                     change KEY NUMBER ... (see change.h)  pick X Y
-//   save checkpoint|journal                  exact 0|1 (frames are wanted)         textures HELD (painters.h)
+//   save checkpoint|journal|scene                exact 0|1 (frames are wanted)         textures HELD
+//   (painters.h)
 //
 //   hands               asks for them        give (them to who asked)
 //
@@ -29,11 +30,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/journal/journal.h"
 #include "app/view/client.h"
 #include "app/view/hands.h"
 #include "app/view/painters.h"
 #include "app/view/past.h"
+#include "library/journal/journal.h"
 #include "voxmelt/voxmelt.h"
 
 namespace voxmelt::view {
@@ -101,12 +102,13 @@ class Session {
   void tell(std::optional<Client> client, std::string text);
   void pick(Client client, int x, int y);
   void save(Client client, std::string_view what);
+  std::string scene_with_changes() const;
   Picture picture(Quality quality) const;
 
   const Open open_;
   Simulation simulation_;
-  const std::uint32_t first_;  // steps done at the beginning
-  const std::string scene_;
+  const std::uint32_t first_;             // steps done at the beginning
+  const std::string scene_, scene_text_;  // its name, and all that it says
   const Send send_;
   std::optional<journal::Reader> journal_;
   std::optional<journal::Writer> record_;

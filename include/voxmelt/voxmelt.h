@@ -68,6 +68,16 @@ std::vector<Format> formats();
 /// two steps then. So it may be looked at, drawn and saved, but not stepped.
 using Progress = std::function<void(std::uint32_t done, std::uint32_t count)>;
 
+/// Says what happens between two steps, in the words of `[[change]]` of a scene file (docs/scenes.md).
+struct SceneChange {
+  std::uint32_t steps_done = 0;  ///< how many steps are done before it
+  std::string what;              ///< "vent.0.rate 0.2", "carve 10 10 10 4", ...
+};
+
+/// Returns the text of a scene that makes these changes, too: before its own ones of the same step.
+/// @throws InputError for a text that is no scene's
+std::string with_changes(const std::string& scene_text, const std::vector<SceneChange>& more);
+
 /// Lists the keys that Simulation::set() takes (docs/library.md).
 std::vector<std::string> changeable_keys();
 
@@ -99,15 +109,16 @@ class Simulation {
   /// Returns the number of threads in use, at most as many as the machine has.
   int threads() const;
 
-  /// Runs whole steps (docs/automaton.md, section 3). It ends early, between two steps, once `stop` is
+  /// Runs whole steps (docs/automaton.md, section 3). Changes of the scene, `[[change]]`, are made before
+  /// those steps that they name. It ends early, between two steps, once `stop` is
   /// requested, which any thread may do. An exception from `progress` comes through.
   /// @return the number of steps that were run
-  /// @throws InputError where step numbers would exceed 2^32 - 1
+  /// @throws InputError where step numbers would exceed 2^32 - 1, and for a change that cannot be made
   /// @throws ResourceError when memory runs out
   std::uint32_t step(std::uint32_t count = 1, const std::stop_token& stop = {},
                      const Progress& progress = {});
   /// Goes back to the state with which this simulation began. Its file is read again. Parameters, sources,
-  /// vents and drains that were set since then stay.
+  /// vents and drains that were set since then stay. Only a scene with `[[change]]` has its own ones again.
   /// @throws InputError where the file no longer gives that state; then nothing has changed
   /// @throws ResourceError when memory runs out; then nothing has changed
   void restart();
@@ -115,6 +126,10 @@ class Simulation {
   std::uint32_t steps_done() const;
   /// Returns the automaton's number of the next step: steps_done(), plus the scene's `start.step`.
   std::uint32_t step_number() const;
+
+  /// Returns the scene as one text (TOML): all that its file and the overrides said, with whole paths of
+  /// other files. It is empty for a simulation that began from a checkpoint.
+  const std::string& scene_text() const;
 
   /// Returns the size of the volume in cells.
   Grid grid() const;

@@ -21,6 +21,7 @@
 #include "kernel/scene/text/print.h"
 #include "kernel/scene/text/reader.h"
 #include "kernel/scene/text/text_file.h"
+#include "kernel/scene/timeline.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -83,6 +84,7 @@ state::Grid read_settings(Reader& root, Scene& scene) {
   scene.camera = read_camera(root, grid);
   scene.light = read_light(root);
   scene.look = read_look(root);
+  scene.changes = read_timeline(root);
   use_palette(read_palette(root, scene.parameters.material, scene.parameters.heat), scene);
   return grid;
 }
@@ -169,6 +171,7 @@ Scene load(const std::filesystem::path& file, const std::vector<std::string>& ov
   scene.initial_digest = state::digest(scene.initial);
   scene.files = read.files();
   scene.terrain = std::move(contents.terrain);
+  scene.text = portable_text(document);
   scene.settings = settings_of(std::move(document));
   return scene;
 }

@@ -16,6 +16,13 @@
 
 namespace voxmelt::scene {
 
+// Is what happens before the step of this number, in the words of a journal (library/journal/change.h).
+struct Change {
+  std::uint32_t step = 0;
+  std::string what;
+  std::string place{};  // file:line:column, for messages
+};
+
 struct Scene {
   std::string name;  // file name without folder and suffix
   std::filesystem::path file;
@@ -34,7 +41,9 @@ struct Scene {
   Light light;
   Look look;
   Terrain terrain;
-  std::string settings;                  // TOML: all of the document but what fills the grid
+  std::vector<Change> changes;  // [[change]], steps ascending; those before `first_step` count as made
+  std::string text;             // TOML: all of the document; nothing for a checkpoint
+  std::string settings;         // TOML: all of the document but what fills the grid
   std::optional<state::MidRun> mid_run;  // set if a run goes on from `initial`, not if it begins there
 };
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/journal/journal.h"
-#include "app/journal/world.h"
+#include "library/journal/journal.h"
+#include "library/journal/world.h"
 #include "tests/fuzz/target.h"
 #include "voxmelt/voxmelt.h"
 

@@ -89,13 +89,13 @@ ALLOWED = {
     "accuracy/picture": ["kernel/scene", CPU, "kernel/run", PICTURE, "render/density", "render/image", "render/reference", "render/packet/scene_in_integers.h"],
     # What strangers include: the standard library only.
     "include/voxmelt": [],
-    "library": ["include/voxmelt", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
+    "library": ["include/voxmelt", "library/journal", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
                 "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
-    "app/view": ["app", "app/journal", "include/voxmelt", "render/image"],
-    "app/journal": ["include/voxmelt"],
-    "app": ["app/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
+    "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],
+    "library/journal": ["include/voxmelt", "kernel/scene/scene.h"],
+    "app": ["library/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
             "hwmodel/machine/presets", "hwmodel/memory", STATE, "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
@@ -119,7 +119,7 @@ THIRD_PARTY = {
                   "report/bench", "report/hardware", "app", "app/view"],
     "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
-             "report/hardware", "app", "app/journal", "app/view"],
+             "report/hardware", "app", "library/journal", "app/view"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ASKED = re.compile(r'(?:\.|->)(?:number|integer|flag|text|choice|file|rows|tables?|vector<\d>)\(\s*"(\w+)"')
+ASKED = re.compile(r'(?:\.|->)(?:number|integer|flag|texts?|choice|file|rows|tables?|vector<\d>)\(\s*"(\w+)"')
 WRITTEN = re.compile(r'\{"(\w+)",|\["(\w+)"\]')
 JSON = "kernel/run/io/parameters_json.cpp"
 HW = "hwmodel/pipeline/model/configuration.h"

@@ -1,4 +1,5 @@
 // The panel: what can be changed, and what is seen of it. Every change is a key of the scene file.
+import { opening, Sources } from "/switches.js";
 
 const byId = (id) => document.getElementById(id);
 const round = (v, digits = 3) => Number(v.toPrecision(digits));
@@ -24,11 +25,11 @@ function logarithmicRow(name, key, value, middle, change) {
   return row;
 }
 
-function removal(key, change) {
+function removal(key, change, done) {
   const button = document.createElement("button");
   button.textContent = "Remove";
   button.title = key;
-  button.addEventListener("click", () => change(key));
+  button.addEventListener("click", () => { done?.(); change(key); });
   return button;
 }
 
@@ -36,6 +37,7 @@ export class Panel {
   // say(line) sends a line; change(key, ...numbers) sends a change.
   constructor(say, change) {
     this.change = change;
+    this.sources = new Sources(change);
     this.middles = new Map();  // of sliders, by key: the value that they first had
     this.busy = false;  // a slider is being dragged, and must not be replaced under the pointer
     byId("panel").addEventListener("pointerdown", () => { this.busy = true; });
@@ -69,19 +71,21 @@ export class Panel {
     document.title = `${world.scene} · voxmelt`;
     if (byId("key").options.length === 0)
       for (const key of world.keys) byId("key").add(new Option(key, key));
+    this.sources.take(world);
     if (this.busy) return;
     this.showList("sources", world.heat_sources, "heat_source", (source, i) => {
       const key = source.keyframes.at(-1);
       return [[`${i + 1}. ${source.kind}: power`, "power", key.power]];
-    });
+    }, (source, i) => [this.sources.kind(source, i), this.sources.power(source, i)], (i) => this.sources.removed(i));
     this.showList("vents", world.vents, "vent", (vent, i) =>
       [[`${i + 1}. rate`, "rate", vent.rate], ["temperature", "temperature", vent.temperature],
-       ["radius", "radius", vent.radius]]);
+       ["radius", "radius", vent.radius]], (vent, i) => [opening("vent", vent, i, this.change)]);
     this.showList("drains", world.drains, "drain", (drain, i) =>
-      [[`${i + 1}. rate`, "rate", drain.rate], ["radius", "radius", drain.radius]]);
+      [[`${i + 1}. rate`, "rate", drain.rate], ["radius", "radius", drain.radius]],
+      (drain, i) => [opening("drain", drain, i, this.change)]);
   }
 
-  showList(place, list, name, rowsOf) {
+  showList(place, list, name, rowsOf, switchesOf, removed) {
     const rows = [];
     list.forEach((one, i) => {
       for (const [label, part, value] of rowsOf(one, i)) {
@@ -89,7 +93,10 @@ export class Panel {
         if (!this.middles.has(key)) this.middles.set(key, value > 0 ? value : 1);
         rows.push(logarithmicRow(label, key, value, this.middles.get(key), this.change));
       }
-      rows.push(removal(`${name}.${i}.remove`, this.change));
+      const buttons = document.createElement("div");
+      buttons.className = "switches";
+      buttons.append(...switchesOf(one, i), removal(`${name}.${i}.remove`, this.change, () => removed?.(i)));
+      rows.push(buttons);
     });
     byId(place).replaceChildren(...rows);
   }

@@ -257,6 +257,7 @@ function holdSource(event, i, shapes) {
 byId("save-picture").addEventListener("click", () =>
   (own.on ? own.canvas : canvas).toBlob((blob) => download(`${state.world.scene}-${String(state.head.step).padStart(6, "0")}.png`, blob)));
 byId("save-checkpoint").addEventListener("click", () => say("save checkpoint"));
+byId("save-scene").addEventListener("click", () => say("save scene"));
 byId("save-journal").addEventListener("click", () => say("save journal"));
 
 // --- A vent or a drain where a click says ---

@@ -174,6 +174,19 @@ std::vector<double> Reader::rows(std::string_view key, std::size_t width, std::s
   return result;
 }
 
+std::vector<const Value*> Reader::texts(std::string_view key) {
+  const Value& value = *find_or_fail(key, true);
+  if (value.kind != Value::Kind::array) fail_kind(value, name(key), "an array of strings");
+  if (value.items.empty()) fail(key, " is empty");
+  std::vector<const Value*> result;
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    if (value.items[i].kind != Value::Kind::text)
+      fail_kind(value.items[i], fmt::format("{}.{}", name(key), i), "a string");
+    result.push_back(&value.items[i]);
+  }
+  return result;
+}
+
 std::optional<Reader> Reader::table(std::string_view key) {
   const Value* value = find(key);
   if (!value) return {};

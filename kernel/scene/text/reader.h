@@ -60,6 +60,8 @@ class Reader {
     for (std::size_t i = 0; read && i < N; ++i) result[i] = (*read)[i];
     return result;
   }
+  // Reads a list of one string or more.
+  std::vector<const Value*> texts(std::string_view key);
   // Reads a list of `lowest`..`highest` rows of `width` numbers each, row after row.
   std::vector<double> rows(std::string_view key, std::size_t width, std::size_t lowest, std::size_t highest,
                            const Range& range);

@@ -1,8 +1,9 @@
-#include "app/journal/change.h"
+#include "library/journal/change.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -77,8 +78,33 @@ Keyframe present(const HeatSource& source, std::uint32_t step) {
   return keys.back();
 }
 
+// Makes a source of the numbers that its kind has.
+HeatSource new_source(const Change& change, HeatSourceKind kind) {
+  const std::vector<double>& n = change.numbers;
+  constexpr std::array<std::size_t, kHeatSourceKinds> kNumbers{4, 5, 4, 1};
+  need(change, kNumbers[static_cast<std::size_t>(kind)]);
+  Keyframe key{.power = n.back()};
+  if (kind == HeatSourceKind::point || kind == HeatSourceKind::sphere) key.at = {n[0], n[1], n[2]};
+  if (kind == HeatSourceKind::sphere) key.radius = n[3];
+  if (kind == HeatSourceKind::directional) key.direction = {n[0], n[1], n[2]};
+  return {{key}, kind};
+}
+
+// Returns the kind that a word names, if it does.
+using KindNames = std::array<std::string_view, kHeatSourceKinds>;
+std::optional<HeatSourceKind> kind_of(std::string_view word, const KindNames& names) {
+  const auto found = std::ranges::find(names, word);
+  if (found == names.end()) return {};
+  return static_cast<HeatSourceKind>(found - names.begin());
+}
+
 // A source that a hand moves has one keyframe from then on: what it is at this step.
 void change_source(const Change& change, std::string_view part, std::uint32_t step, HeatSource& source) {
+  constexpr KindNames kKinds{"point", "sphere", "sun", "sky"};
+  if (const auto kind = kind_of(part, kKinds)) {
+    source = new_source(change, *kind);
+    return;
+  }
   Keyframe now = present(source, step);
   now.step = 0;
   const bool has_place = source.kind == HeatSourceKind::point || source.kind == HeatSourceKind::sphere;
@@ -95,6 +121,14 @@ void change_source(const Change& change, std::string_view part, std::uint32_t st
   source.keyframes = {now};
 }
 
+// An opening that is on is open at every step. One that is off opens at a step that no run comes to.
+template <class Opening>
+void switch_opening(const Change& change, bool on, Opening& opening) {
+  need(change, 0);
+  opening.from = on ? 0 : kNever - 1;
+  opening.until = kNever;
+}
+
 template <class Opening>
 void change_opening(const Change& change, std::string_view part, Opening& opening) {
   if (part == "at")
@@ -103,6 +137,8 @@ void change_opening(const Change& change, std::string_view part, Opening& openin
     opening.radius = one(change);
   else if (part == "rate")
     opening.rate = one(change);
+  else if (part == "on" || part == "off")
+    switch_opening(change, part == "on", opening);
   else if constexpr (requires { opening.temperature; }) {
     if (part != "temperature") fail(change, "is not a key of a vent");
     opening.temperature = one(change);
@@ -123,29 +159,13 @@ void edit(const Change& change, const ListKey& key, std::vector<One>& list, cons
   }
 }
 
-HeatSource new_source(const Change& change, std::string_view how) {
-  const std::vector<double>& n = change.numbers;
-  if (how == "add") {
-    need(change, 4);
-    return HeatSource::fixed({n[0], n[1], n[2]}, n[3]);
-  }
-  if (how == "add_sphere") {
-    need(change, 5);
-    return {{{.at = {n[0], n[1], n[2]}, .power = n[4], .radius = n[3]}}, HeatSourceKind::sphere};
-  }
-  if (how == "add_sun") {
-    need(change, 4);
-    return {{{.power = n[3], .direction = {n[0], n[1], n[2]}}}, HeatSourceKind::directional};
-  }
-  if (how != "add_sky") fail(change, "is no way to add a source");
-  need(change, 1);
-  return {{{.power = n[0]}}, HeatSourceKind::sky};
-}
-
 void apply_to_sources(const Change& change, const ListKey& key, World& world) {
   std::vector<HeatSource> sources = world.heat_sources();
   if (!key.index) {
-    sources.push_back(new_source(change, key.part));
+    constexpr KindNames kWays{"add", "add_sphere", "add_sun", "add_sky"};
+    const auto kind = kind_of(key.part, kWays);
+    if (!kind) fail(change, "is no way to add a source");
+    sources.push_back(new_source(change, *kind));
   } else {
     edit(change, key, sources, [&](std::string_view part, HeatSource& source) {
       change_source(change, part, world.step_number(), source);

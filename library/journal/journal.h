@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/journal/change.h"
+#include "library/journal/change.h"
 
 namespace voxmelt::journal {
 

@@ -1,4 +1,4 @@
-#include "app/journal/journal.h"
+#include "library/journal/journal.h"
 
 #include <fmt/format.h>
 

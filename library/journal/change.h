@@ -2,13 +2,11 @@
 // numbers, as text "KEY NUMBER ...".
 //
 //   heat_source.0.at X Y Z           .power P   .radius R   .direction X Y Z   .remove
-//   heat_source.add X Y Z POWER      a point; it gets the next number
-//   heat_source.add_sphere X Y Z RADIUS POWER
-//   heat_source.add_sun X Y Z POWER  towards it
-//   heat_source.add_sky POWER
-//   vent.0.at X Y Z                  .radius R  .rate A     .temperature T     .remove
-//   vent.add X Y Z RADIUS RATE TEMPERATURE
-//   drain.0.at X Y Z                 .radius R  .rate A     .remove
+//   heat_source.0.point X Y Z POWER  .sphere X Y Z RADIUS POWER     .sun X Y Z POWER   .sky POWER: becomes
+//   one heat_source.add X Y Z POWER      a point; it gets the next number heat_source.add_sphere X Y Z RADIUS
+//   POWER heat_source.add_sun X Y Z POWER  towards it heat_source.add_sky POWER vent.0.at X Y Z .radius R
+//   .rate A     .temperature T     .remove vent.0.on    .off                always open, and never vent.add X
+//   Y Z RADIUS RATE TEMPERATURE drain.0.at X Y Z                 .radius R  .rate A     .on    .off .remove
 //   drain.add X Y Z RADIUS RATE
 //   pour X Y Z RADIUS TEMPERATURE    a ball of liquid, see Simulation::pour
 //   carve X Y Z RADIUS
@@ -22,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/journal/world.h"
+#include "library/journal/world.h"
 
 namespace voxmelt::journal {
 
