@@ -6,18 +6,19 @@
 
 #include <jpeglib.h>
 
-#include "render/image/image.h"
 #include "render/image/png_bytes.h"
 
 namespace voxmelt::view {
 
-std::string png_of(const Frame& frame) {
+render::Image image_of(const Frame& frame) {
   render::Image image(frame.width, frame.height);
   const std::size_t row = 3 * static_cast<std::size_t>(frame.width);
   for (int y = 0; y < frame.height; ++y)
     std::memcpy(&image.at(0, y), frame.rgb.data() + static_cast<std::size_t>(y) * frame.stride, row);
-  return render::png_bytes(image);
+  return image;
 }
+
+std::string png_of(const Frame& frame) { return render::png_bytes(image_of(frame)); }
 
 // The library ends the program where memory runs out. Nothing else can go wrong with a picture of ours.
 std::string jpeg_of(const Frame& frame) {

@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "render/image/image.h"
 #include "voxmelt/picture.h"
 
 namespace voxmelt::view {
 
+render::Image image_of(const Frame& frame);
 std::string png_of(const Frame& frame);
 std::string jpeg_of(const Frame& frame);  // quality 90
 

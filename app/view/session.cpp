@@ -13,6 +13,7 @@
 #include "app/view/encode.h"
 #include "app/view/scratch.h"
 #include "app/view/texture_message.h"
+#include "app/view/world_message.h"
 
 namespace voxmelt::view {
 namespace {
@@ -23,6 +24,7 @@ using json = nlohmann::ordered_json;
 constexpr std::uint32_t kFastest = 1000, kMostSteps = 100'000;
 constexpr int kSmallest = 64, kWidest = 3840, kHighest = 2160;
 constexpr double kMostVersion = INT32_MAX;
+constexpr const char* kFilmIsOver = "over";
 constexpr std::size_t kMostOrders = 10'000;  // beyond it pages are not heard
 
 double since(Clock::time_point begin) {
@@ -43,18 +45,6 @@ int whole(double number, double least, double most) {
 
 json array_of(const Position& p) { return {p[0], p[1], p[2]}; }
 
-json source_json(const HeatSource& source) {
-  constexpr const char* kKinds[kHeatSourceKinds] = {"point", "sphere", "directional", "sky"};
-  json keys = json::array();
-  for (const Keyframe& key : source.keyframes)
-    keys.push_back({{"step", key.step},
-                    {"at", array_of(key.at)},
-                    {"power", key.power},
-                    {"radius", key.radius},
-                    {"direction", array_of(key.direction)}});
-  return {{"kind", kKinds[static_cast<std::size_t>(source.kind)]}, {"keyframes", keys}};
-}
-
 const char* name_of(Quality quality) {
   if (quality == Quality::fast) return "fast";
   return quality == Quality::normal ? "normal" : "best";
@@ -70,6 +60,11 @@ MessagePtr binary(Message::Kind kind, const std::string& head, const std::string
   for (int i = 0; i < 4; ++i) message.bytes += static_cast<char>(length >> (8 * i) & 0xFF);
   message.bytes += head + body;
   return std::make_shared<const Message>(std::move(message));
+}
+
+MessagePtr file_message(const std::string& name, const std::string& bytes) {
+  const json head{{"type", "file"}, {"name", name}};
+  return binary(Message::Kind::file, head.dump(-1, ' ', true, json::error_handler_t::replace), bytes);
 }
 
 }  // namespace
@@ -123,7 +118,13 @@ void Session::run() {
 }
 
 void Session::obey(const Order& order) {
+  if (order.kind == Order::Kind::filmed) {
+    send_(order.client, order.message);
+    if (order.line == kFilmIsOver) film_.reset();
+    return;
+  }
   if (order.kind == Order::Kind::left) {
+    if (film_ && film_for_ == order.client) film_->stop();
     painters_.leave(order.client);
     hands_.leave(order.client);
     return tell_hands();
@@ -197,6 +198,8 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
     send_textures();
   } else if (word == "change") {
     change(rest);
+  } else if (word == "film") {
+    film(client, whole(numbers(rest, 1)[0], 0, 1) == 1);
   } else if (word == "save") {
     save(client, rest);
   } else if (word == "pick") {
@@ -234,6 +237,35 @@ void Session::write_down(const journal::Change& change) {
   if (record_) record_->write(simulation_.steps_done(), change);
 }
 
+// The film is of this camera, up to this step, with a frame for each of the page's.
+void Session::film(Client client, bool begin) {
+  if (!begin) {
+    if (film_) film_->stop();
+    return;
+  }
+  if (film_) throw InputError("error: a film is being made already");
+  const auto tell = [this, client](const Film::Progress& now) {
+    Order order{client, now.over ? kFilmIsOver : "", Order::Kind::filmed};
+    if (now.film.empty()) {
+      json text{{"type", "film"}, {"frames", now.frames}, {"planned", now.planned}, {"over", now.over}};
+      text["problem"] = now.problem;
+      order.message = std::make_shared<const Message>(
+          Message{text.dump(-1, ' ', true, json::error_handler_t::replace), Message::Kind::text});
+    } else {
+      order.message = file_message(std::filesystem::path(scene_).stem().string() + ".mp4", now.film);
+    }
+    put(std::move(order));
+  };
+  film_for_ = client;
+  film_.emplace(Film::Plan{.open = [open = open_] { return open({}); },
+                           .changes = changes_,
+                           .first = first_,
+                           .last = simulation_.steps_done(),
+                           .every = speed_,
+                           .picture = picture(Quality::best)},
+                tell);
+}
+
 // Changes of a journal become those of a scene, [[change]].
 std::string Session::scene_with_changes() const {
   if (scene_text_.empty())
@@ -260,9 +292,7 @@ void Session::save(Client client, std::string_view what) {
   } else {
     throw InputError("error: wants `checkpoint`, `journal` or `scene`");
   }
-  const json head{{"type", "file"}, {"name", name}, {"step", simulation_.steps_done()}};
-  const std::string text = head.dump(-1, ' ', true, json::error_handler_t::replace);
-  send_(client, binary(Message::Kind::file, text, bytes));
+  send_(client, file_message(name, bytes));
 }
 
 void Session::restart() {
@@ -402,38 +432,7 @@ std::string Session::header(const char* type, Quality quality, bool exact) const
   return head.dump();
 }
 
-void Session::tell_world(std::optional<Client> client) {
-  json sources = json::array(), vents = json::array(), drains = json::array();
-  const auto is_open = [step = simulation_.step_number()](const auto& one) {
-    return one.from <= step && step < one.until;
-  };
-  for (const HeatSource& source : simulation_.heat_sources()) sources.push_back(source_json(source));
-  for (const Vent& vent : simulation_.vents())
-    vents.push_back({{"at", array_of(vent.at)},
-                     {"radius", vent.radius},
-                     {"rate", vent.rate},
-                     {"temperature", vent.temperature},
-                     {"open", is_open(vent)}});
-  for (const Drain& drain : simulation_.drains())
-    drains.push_back({{"at", array_of(drain.at)},
-                      {"radius", drain.radius},
-                      {"rate", drain.rate},
-                      {"open", is_open(drain)}});
-  const Grid grid = simulation_.grid();
-  tell(client, json{{"type", "world"},
-                    {"scene", scene_},
-                    {"title", simulation_.title()},
-                    {"grid", {grid.x, grid.y, grid.z}},
-                    {"step_number", simulation_.step_number()},
-                    {"implementation", simulation_.implementation()},
-                    {"threads", simulation_.threads()},
-                    {"keys", changeable_keys()},
-                    {"numbers", simulation_.numbers()},
-                    {"heat_sources", sources},
-                    {"vents", vents},
-                    {"drains", drains}}
-                   .dump(-1, ' ', true, json::error_handler_t::replace));
-}
+void Session::tell_world(std::optional<Client> client) { tell(client, world_of(simulation_, scene_)); }
 
 void Session::tell(std::optional<Client> client, std::string text) {
   send_(client, std::make_shared<const Message>(Message{std::move(text), Message::Kind::text}));

@@ -10,6 +10,7 @@
 //   save checkpoint|journal|scene                exact 0|1 (frames are wanted)         textures HELD
 //   (painters.h)
 //
+//   film 0|1            stops it, or makes one up to this step, with a frame for each of the page's
 //   hands               asks for them        give (them to who asked)
 //
 // It gets frames, files, and answers of one line of JSON with a "type". A line that is wrong gets a
@@ -31,6 +32,7 @@
 #include <vector>
 
 #include "app/view/client.h"
+#include "app/view/film.h"
 #include "app/view/hands.h"
 #include "app/view/painters.h"
 #include "app/view/past.h"
@@ -71,10 +73,11 @@ class Session {
 
  private:
   struct Order {
-    enum class Kind { said, came, left };
+    enum class Kind { said, came, left, filmed };
     Client client;
     std::string line;
     Kind kind = Kind::said;
+    MessagePtr message{};  // what a film has to tell
   };
   struct Milliseconds {
     double step = 0, draw = 0, encode = 0;
@@ -103,6 +106,7 @@ class Session {
   void pick(Client client, int x, int y);
   void save(Client client, std::string_view what);
   std::string scene_with_changes() const;
+  void film(Client client, bool begin);
   Picture picture(Quality quality) const;
 
   const Open open_;
@@ -131,6 +135,9 @@ class Session {
   std::condition_variable something_;
   std::vector<Order> orders_;
   bool stopped_ = false;
+
+  Client film_for_ = 0;
+  std::optional<Film> film_;  // last: its thread puts orders
 };
 
 }  // namespace voxmelt::view

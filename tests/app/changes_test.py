@@ -71,7 +71,17 @@ class ChangesTest(unittest.TestCase):
     def test_as_a_key(self):
         """What a key of the scene says, too, is the same by a change of the right step."""
         plain = write(self.path, SCENE)
-        for change, sets in (("0 heat.gamma 0.3", ["heat.gamma=0.3"]), ("0 heat_source.0.power 55", ["heat_source.0.power=55"]),
+        vent, drain = "at=[10, 12, 7], radius=2, rate=0.4", "at=[6, 3, 14], radius=3, rate=0.5"
+        for change, sets in (("0 heat_source.0.sun 1 2 0.5 0.003",
+                              ['heat_source=[{kind="directional", direction=[1, 2, 0.5], power=0.003}]']),
+                             ("0 heat_source.0.sphere 3 14 9 2 40", ['heat_source=[{kind="sphere", at=[3, 14, 9], radius=2, power=40}]']),
+                             ("0 heat_source.0.sky 0.002", ['heat_source=[{kind="sky", power=0.002}]']),
+                             ("0 heat_source.0.point 3 14 9 40", ["heat_source.0.at=[3, 14, 9]", "heat_source.0.power=40"]),
+                             ("0 vent.add 10 12 7 2 0.4 0\n8 vent.0.off", [f"vent=[{{{vent}, until=8}}]"]),
+                             ("0 vent.add 10 12 7 2 0.4 0\n0 vent.0.off\n9 vent.0.on", [f"vent=[{{{vent}, from=9}}]"]),
+                             ("0 drain.add 6 3 14 3 0.5\n8 drain.0.off\n21 drain.0.on",
+                              [f"drain=[{{{drain}, until=8}}, {{{drain}, from=21}}]"]),
+                             ("0 heat.gamma 0.3", ["heat.gamma=0.3"]), ("0 heat_source.0.power 55", ["heat_source.0.power=55"]),
                              ("7 vent.add 10 12 7 2 0.4 0.9",
                               ["vent=[{at=[10, 12, 7], radius=2, rate=0.4, temperature=0.9, from=7}]"]),
                              ("11 drain.add 6 3 14 3 0.5", ["drain=[{at=[6, 3, 14], radius=3, rate=0.5, from=11}]"])):

@@ -89,8 +89,8 @@ class BrowserTest(InBrowser):
         self.wait(lambda: abs(self.world()["heat_sources"][0]["keyframes"][0]["power"] / before["power"] - 10**0.5) < 1e-3)
         self.element("add-source").click()
         self.wait(lambda: len(self.world()["heat_sources"]) == 2)
-        self.wait(lambda: len(self.driver.find_elements(By.CSS_SELECTOR, "#sources button")) == 2)
-        self.driver.find_elements(By.CSS_SELECTOR, "#sources button")[1].click()
+        self.wait(lambda: len(self.driver.find_elements(By.CSS_SELECTOR, "#sources button[title$='.remove']")) == 2)
+        self.driver.find_elements(By.CSS_SELECTOR, "#sources button[title$='.remove']")[1].click()
         self.wait(lambda: len(self.world()["heat_sources"]) == 1)
         self.element("add-vent").click()
         canvas = self.element("picture")
@@ -99,6 +99,41 @@ class BrowserTest(InBrowser):
         self.wait(lambda: len(self.world()["vents"]) == 1)
         self.assertIn("cell", self.element("probe").text)
         self.shot("by_hand")
+        self.no_errors()
+
+    def test_switches_and_kinds(self):
+        self.open("bunny_small")
+        first = self.world()["heat_sources"][0]["keyframes"][0]
+        press = lambda title: self.wait(lambda: self.driver.find_elements(By.CSS_SELECTOR, f"#panel button[title^='{title}']"))[0].click()
+        power = lambda: self.world()["heat_sources"][0]["keyframes"][0]["power"]
+        press("heat_source.0.power")
+        self.wait(lambda: power() == 0)
+        self.shot("source_off")
+        press("heat_source.0.power")
+        self.wait(lambda: power() == first["power"])
+        choose = lambda kind: self.driver.execute_script(
+            "const s = document.querySelector('#sources select'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", kind)
+        for kind in ("directional", "sky", "sphere", "point"):
+            choose(kind)
+            self.wait(lambda: self.world()["heat_sources"][0]["kind"] == kind)
+            self.wait(lambda: self.driver.execute_script("return document.querySelector('#sources select').value") == kind)
+        grid = self.world()["grid"]
+        choose("directional")
+        self.wait(lambda: self.world()["heat_sources"][0]["kind"] == "directional")
+        choose("point")
+        self.wait(lambda: self.world()["heat_sources"][0]["kind"] == "point")
+        back = self.world()["heat_sources"][0]["keyframes"][0]
+        self.assertGreater(back["power"] / max(grid)**2, 0)
+        with Page(self.server) as page:
+            page.send("save scene")
+            self.assertIn("[[change]]", page.file()[1].decode())
+        self.element("add-vent").click()
+        ActionChains(self.driver, duration=50).move_to_element_with_offset(self.element("picture"), -60, -30).click().perform()
+        self.wait(lambda: [one["open"] for one in self.world()["vents"]] == [True])
+        for word, is_open in (("off", False), ("on", True)):
+            press(f"vent.0.{word}")
+            self.wait(lambda: self.world()["vents"][0]["open"] == is_open)
+        self.shot("switches")
         self.no_errors()
 
     def journal(self):

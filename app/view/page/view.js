@@ -2,6 +2,7 @@
 import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
 import { Ball } from "/ball.js";
 import { Books } from "/books.js";
+import { Film } from "/film.js";
 import { Hands } from "/hands.js";
 import { Numbers } from "/numbers.js";
 import { OwnPainter } from "/own_painter.js";
@@ -18,6 +19,7 @@ const hands = new Hands(say, () => size());
 const change = (key, ...numbers) => say(["change", key, ...numbers].join(" "));
 const panel = new Panel(say, change);
 const past = new Past(say);
+const film = new Film(say);
 const books = new Books();
 const numbers = new Numbers(change);
 const own = new OwnPainter(say, () => ({ camera: camera(), ...state.size }), (head) => seen(head));
@@ -37,6 +39,7 @@ function connect() {
 function hear(message) {
   if (message.type === "world") { state.world = message; panel.showWorld(message); numbers.showWorld(message); drawHandles(); }
   if (message.type === "pick" && !ball.hear(message)) panel.showPick(message);
+  if (message.type === "film") film.hear(message);
   if (message.type === "hands") hands.take(message);
   if (message.type === "dropped") books.skipped = message.frames;
   if (message.type === "books") books.take(message);
@@ -58,7 +61,10 @@ async function show(bytes) {
   books.count(bytes.byteLength);
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
-  if (head.type === "file") return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
+  if (head.type === "file") {
+    if (head.name.endsWith(".mp4")) film.done(head.name);
+    return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
+  }
   if (head.type === "textures") return own.take(head, new Uint8Array(bytes, 4 + length));
   const type = head.exact ? "image/png" : "image/jpeg";
   const picture = await createImageBitmap(new Blob([new Uint8Array(bytes, 4 + length)], { type }));
