@@ -50,6 +50,7 @@ PURPOSES = {
     "hwmodel/explore": "which hardware is best for a device",
     "render": "the pictures",
     "render/rule": "the picture in integers",
+    "render/cells": "cells as boxes, in false colours",
     "render/density": "amounts to a filtered field",
     "render/ground": "the ground's heights and rock",
     "render/light": "volumes of light",

@@ -2,15 +2,13 @@
 // back.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <stop_token>
-#include <string>
 
 #include "library/parts.h"
+#include "library/picture_input.h"
 #include "library/translate.h"
 #include "render/image/png.h"
 #include "render/packet/scene_in_integers.h"
@@ -19,15 +17,10 @@
 namespace voxmelt {
 namespace {
 
+using library::camera_of;
+using library::checked;
+using library::frame_of;
 using library::translated;
-
-template <class Number>
-Number checked(const char* name, Number value, Number lowest, Number highest,
-               const std::string& text = "Picture") {
-  if (value >= lowest && value <= highest) return value;  // false for a NaN
-  throw InputError(text + ": error: " + std::string(name) + " = " + std::to_string(value) + " is outside " +
-                   std::to_string(lowest) + ".." + std::to_string(highest));
-}
 
 render::Setting setting_of(Quality quality) {
   switch (quality) {
@@ -40,38 +33,8 @@ render::Setting setting_of(Quality quality) {
   }
 }
 
-void look_from(const Camera& from, scene::Camera& camera) {
-  constexpr double kFarthest = 65536;  // the limit in scenes, too
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    camera.target[axis] = checked("camera.target", from.target[axis], -kFarthest, kFarthest);
-  camera.distance = checked("camera.distance", from.distance, 0.0, 4 * kFarthest);
-  camera.azimuth = checked("camera.azimuth", from.azimuth, -360.0, 360.0);
-  camera.elevation = checked("camera.elevation", from.elevation, -89.0, 89.0);
-  camera.field_of_view = checked("camera.field_of_view", from.field_of_view, 1.0, 120.0);
-  camera.orthographic = from.projection == Projection::orthographic;
-}
-
-scene::Camera camera_of(scene::Camera camera, const Picture& picture) {
-  if (picture.camera) look_from(*picture.camera, camera);
-  if (picture.width) camera.width = checked("width", *picture.width, 16, scene::kWidestPicture);
-  if (picture.height) camera.height = checked("height", *picture.height, 16, scene::kWidestPicture);
-  if (picture.azimuth) camera.azimuth = checked("azimuth", *picture.azimuth, -360.0, 360.0);
-  if (picture.elevation) camera.elevation = checked("elevation", *picture.elevation, -89.0, 89.0);
-  return camera;
-}
-
 double in_cells(std::int64_t position) { return static_cast<double>(position) / picture::kCell; }
 Position in_cells(picture::Vector p) { return {in_cells(p.x), in_cells(p.y), in_cells(p.z)}; }
-
-Frame frame_of(const render::Image& image, int alignment) {
-  const auto row = sizeof(render::Rgb) * static_cast<std::size_t>(image.width),
-             unit = static_cast<std::size_t>(alignment), height = static_cast<std::size_t>(image.height);
-  Frame frame{image.width, image.height, (row + unit - 1) / unit * unit, {}, {}, {}};
-  frame.rgb.resize(frame.stride * height);
-  for (int y = 0; y < image.height; ++y)
-    std::memcpy(frame.rgb.data() + y * frame.stride, image.at(0, y).data(), row);
-  return frame;
-}
 
 Shown shown_by(const render::Sight& sight) {
   if (sight.ground) return Shown::ground;
@@ -118,7 +81,7 @@ Camera Simulation::camera(const Picture& picture) const {
 
 Frame Simulation::render(const Picture& picture, const std::stop_token& stop) {
   const scene::Camera camera = camera_of(parts_->scene().camera, picture);
-  const int alignment = checked("row_alignment", picture.row_alignment, 1, 4096);
+  const int alignment = library::row_alignment_of(picture);
   const render::Setting setting = setting_of(picture.quality);
   return translated([&] {
     if (stop.stop_requested()) throw render::Stopped{};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/view/books.h"
+#include "app/view/cells_words.h"
 #include "app/view/encode.h"
 #include "app/view/scratch.h"
 #include "app/view/texture_message.h"
@@ -190,6 +191,8 @@ void Session::obey(Client client, std::string_view word, std::string_view rest) 
   } else if (word == "best") {
     numbers(rest, 0);
     best_ = true;
+  } else if (word == "cells") {
+    show_cells(rest);
   } else if (word == "exact") {
     painters_.want_exact(client, whole(numbers(rest, 1)[0], 0, 1) == 1);
     stale_ = true;
@@ -220,6 +223,13 @@ void Session::look(const std::vector<double>& n) {
   asked.camera = camera;
   (void)simulation_.camera(asked);  // refuses what is out of range
   camera_ = camera;
+  stale_ = true;
+}
+
+void Session::show_cells(std::string_view text) {
+  const std::optional<CellView> cells = read_cells(text);
+  if (cells) (void)simulation_.pick_cell(0, 0, *cells, picture(Quality::fast));  // refuses what is wrong
+  cells_ = cells;
   stale_ = true;
 }
 
@@ -395,7 +405,8 @@ void Session::draw() {
   const bool fast = moving();
   const Quality quality = fast ? Quality::fast : best_ && !stale_ ? Quality::best : Quality::normal;
   const Clock::time_point begin = Clock::now();
-  const Frame frame = simulation_.render(picture(quality));
+  const Picture wanted = picture(quality);
+  const Frame frame = cells_ ? simulation_.render_cells(*cells_, wanted) : simulation_.render(wanted);
   last_.draw = since(begin);
   const Clock::time_point drawn = Clock::now();
   const std::string image = fast ? jpeg_of(frame) : png_of(frame);
@@ -427,6 +438,7 @@ std::string Session::header(const char* type, Quality quality, bool exact) const
             {"solid", state.solid.count()},
             {"liquid", state.liquid.count()},
             {"ms", {{"step", last_.step}, {"draw", last_.draw}, {"encode", last_.encode}}}};
+  if (cells_) head["cells"] = json_of(*cells_);
   // A pass over the state is worth it where nobody waits for the next frame.
   if (exact) head["digest"] = fmt::format("{:016x}", simulation_.digest());
   return head.dump();
@@ -439,7 +451,9 @@ void Session::tell(std::optional<Client> client, std::string text) {
 }
 
 void Session::pick(Client client, int x, int y) {
-  const std::optional<Hit> hit = simulation_.pick(x, y, picture(Quality::fast));
+  const Picture seen = picture(Quality::fast);
+  const std::optional<Hit> hit =
+      cells_ ? simulation_.pick_cell(x, y, *cells_, seen) : simulation_.pick(x, y, seen);
   json answer{{"type", "pick"}, {"at", {x, y}}, {"step", simulation_.steps_done()}};
   if (hit) {
     // The sides of the ground end where the grid does, and views do not check coordinates.

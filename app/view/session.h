@@ -11,6 +11,8 @@
 //   (painters.h)
 //
 //   film 0|1            stops it, or makes one up to this step, with a frame for each of the page's
+//   cells none|COLOURS [AXIS AT]             cells in false colours, cut open (cells_words.h)
+//
 //   hands               asks for them        give (them to who asked)
 //
 // It gets frames, files, and answers of one line of JSON with a "type". A line that is wrong gets a
@@ -88,6 +90,7 @@ class Session {
   void obey(const Order& order);
   void obey(Client client, std::string_view word, std::string_view rest);
   void look(const std::vector<double>& camera);
+  void show_cells(std::string_view text);
   void change(std::string_view text);
   void restart();
   void go_back(std::uint32_t step);
@@ -123,6 +126,7 @@ class Session {
   std::uint32_t speed_ = 3, single_ = 0;  // steps a frame; steps that are still asked for
   int width_ = 640, height_ = 480;
   std::optional<Camera> camera_;
+  std::optional<CellView> cells_;  // if the picture is one of cells
   Painters painters_;
   Hands hands_;
   bool stale_ = true;  // the last frame shows something else

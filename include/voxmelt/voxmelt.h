@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "voxmelt/cells.h"
 #include "voxmelt/changes.h"
 #include "voxmelt/errors.h"
 #include "voxmelt/ledgers.h"
@@ -213,6 +214,14 @@ class Simulation {
   /// @throws InputError for numbers out of their range, and for a pixel beyond the picture
   /// @throws ResourceError when memory runs out
   std::optional<Hit> pick(int x, int y, const Picture& picture = {});
+  /// Draws the cells as boxes in false colours, with the camera of a picture and a plain background. There
+  /// are one, 2 x 2 or 4 x 4 samples in each pixel, by the picture's quality, and no depths.
+  /// @throws InputError for numbers out of their range, and for temperatures in a scene without [heat]
+  /// @throws ResourceError when memory runs out
+  Frame render_cells(const CellView& view = {}, const Picture& picture = {});
+  /// Tells which cell of render_cells() the middle of pixel (x, y) shows. The hit lies on a face of it.
+  /// @throws InputError for numbers out of their range, and for a pixel beyond the picture
+  std::optional<Hit> pick_cell(int x, int y, const CellView& view = {}, const Picture& picture = {});
   /// Returns everything that a picture of the state is drawn from, for programs that draw by a graphics
   /// processor. Only those bricks are listed that have changed since `version`, which an earlier call gave.
   /// Use 0 if there was no call. Bytes are valid until the next call that is not const.

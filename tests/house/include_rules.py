@@ -38,6 +38,7 @@ ALLOWED = {
     PICTURE: [f"{RULE}/fixed_point.h"],
     "render/image": [],
     "report/svg": [],
+    "render/cells": [RULE, STATE, STEP, CPU, PICTURE, "render/image"],
     "render/frames": ["render/image"],
     "render/density": [RULE, STATE, "kernel/scene/look.h", "kernel/scene/shape/terrain.h", CPU],
     "render/light": [PICTURE, CPU, "render/density"],
@@ -90,7 +91,7 @@ ALLOWED = {
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", "library/journal", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
-                "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
+                CPU, "render/cells", "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
     "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],

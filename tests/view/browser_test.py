@@ -179,6 +179,46 @@ class BrowserTest(InBrowser):
         self.shot("panel")
         self.no_errors()
 
+    def colour(self, x, y):
+        """Of the picture, at a share of its width and height."""
+        return self.driver.execute_script("""
+            const canvas = document.getElementById('picture');
+            const at = [Math.floor(arguments[0] * canvas.width), Math.floor(arguments[1] * canvas.height)];
+            return [...canvas.getContext('2d').getImageData(...at, 1, 1).data].slice(0, 3);""", x, y)
+
+    def test_false_colours_and_a_cut(self):
+        self.open("lesson_sun")
+        hand = lambda key: ActionChains(self.driver).send_keys(key).perform()
+        exact = self.pixels()
+        shown = lambda: self.driver.execute_script("return ['colours', 'cut-axis'].map((id) => document.getElementById(id).value)")
+        self.assertFalse(self.element("legend").is_displayed())
+        for colours in ("phase", "temperature", "sleep"):
+            self.changes_picture(lambda: hand("f"))
+            self.assertEqual(shown(), [colours, "none"])
+            self.assertIn("not the exact picture", self.element("legend").text)
+            self.shot(f"cells_{colours}")
+        self.assertIn("asleep", self.element("legend").text)
+        hand("f")
+        self.wait(lambda: self.pixels() == exact and self.data("digest"))
+        self.assertEqual(shown(), ["none", "none"])
+        # A cut alone wants cells, too.
+        self.changes_picture(lambda: hand("x"))
+        self.assertEqual(shown(), ["phase", "x"])
+        self.shot("cells_cut")
+        slider, most = self.element("cut-at"), int(self.element("cut-at").get_attribute("max"))
+        self.assertEqual(self.element("cut-place").text, f"{most // 2} of {most}")
+        move = lambda to: self.driver.execute_script(
+            "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input'))", slider, to)
+        self.changes_picture(lambda: move(most // 4))
+        hand("]")
+        self.wait(lambda: self.element("cut-place").text == f"{most // 4 + 1} of {most}")
+        self.changes_picture(lambda: move(0))
+        self.assertEqual(self.colour(0.5, 0.5), [232, 236, 240], "all is cut off")
+        # The other painter draws the exact picture.
+        self.element("painter").click()
+        self.wait(lambda: shown() == ["none", "none"] or not self.element("legend").is_displayed())
+        self.no_errors()
+
     def test_back_in_time(self):
         self.open("bunny_small")
         first = self.data("digest")

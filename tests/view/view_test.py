@@ -5,10 +5,12 @@ What is drawn and changed by hand has the bits that `render` and `digest` give, 
 Whoever is no page of its own is refused, and changes nothing."""
 import random
 import signal
+import struct
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -24,6 +26,30 @@ def digests(scene, *arguments, cwd):
     done = voxmelt(*arguments, cwd=cwd)
     assert done.returncode == 0, done.stderr
     return {int(words[1]): words[3] for words in map(str.split, done.stdout.splitlines())}
+
+
+def read_png(data):
+    """Width, height, and the rows of (red, green, blue), of a PNG of 8 bits without an interlace."""
+    place, packed = 8, b""
+    while place < len(data):
+        size, kind = struct.unpack(">I4s", data[place:place + 8])
+        part = data[place + 8:place + 8 + size]
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", part[:8])
+            assert part[8:] == b"\x08\x02\0\0\0", part
+        packed += part if kind == b"IDAT" else b""
+        place += 12 + size
+    raw, rows, before = zlib.decompress(packed), [], bytes(3 * width)
+    for y in range(height):
+        way, row = raw[y * (3 * width + 1)], bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
+        for i, up in enumerate(before):
+            left, corner = (row[i - 3], before[i - 3]) if i >= 3 else (0, 0)
+            guess = left + up - corner
+            paeth = min((left, up, corner), key=lambda one: abs(guess - one))
+            row[i] = (row[i] + (0, left, up, (left + up) // 2, paeth)[way]) % 256
+        rows.append([tuple(row[i:i + 3]) for i in range(0, 3 * width, 3)])
+        before = row
+    return width, height, rows
 
 
 class ViewTest(unittest.TestCase):
@@ -289,6 +315,37 @@ class ViewTest(unittest.TestCase):
                 pass
             page.send("step 40")
             self.assertEqual(page.rest(40)[0]["digest"], alone)
+
+    def test_cells_are_shown_cut_open_and_probed(self):
+        with self.serve() as server, Page(server) as page:
+            plain, exact = page.rest()
+            self.assertNotIn("cells", plain)
+            page.send("cells temperature z 6")
+            head, cut = page.rest()
+            self.assertEqual((head["cells"]["colours"], head["cells"]["cut"]), ("temperature", {"axis": "z", "at": 6}))
+            self.assertEqual([mark["name"] for mark in head["cells"]["legend"]], ["0", "0.25", "0.5", "0.75", "1", "none"])
+            self.assertEqual(head["digest"], plain["digest"])
+            self.assertEqual(head["camera"], plain["camera"])
+            # Before the grid's middle the camera sees the cut through the block of 0.49: 0.96 of the
+            # way from (126, 3, 168) at 0.25 to (204, 71, 120) at 0.5.
+            width, height, rows = read_png(cut)
+            self.assertEqual([width, height], head["size"])
+            self.assertEqual(rows[height // 2][width // 2], (201, 68, 122))
+            self.assertEqual(rows[0][0], (232, 236, 240))
+            page.send(f"pick {width // 2} {height // 2}")
+            hit = page.text("pick")
+            self.assertEqual((hit["cell"][2], hit["position"][2]), (5, 6))
+            for line, why in (("cells", "colours"), ("cells blue", "colours"), ("cells phase w 1", "an axis"), ("cells phase x", "whole number"),
+                              ("cells phase x 1.5", "whole number"), ("cells phase x 21", "0..20"), ("cells phase x -1", "0..20"),
+                              ("cells sleep y 5 5", "whole number"), ("cells phase x 99999999999", "whole number"), ("cells none x 1", "colours")):
+                page.send(line)
+                refused = page.text("refused")
+                self.assertEqual(refused["line"], line)
+                self.assertIn(why, refused["why"])
+            page.send("home")
+            self.assertEqual(page.rest()[1], cut, "what is refused changes nothing")
+            page.send("cells none")
+            self.assertEqual(page.rest()[1], exact)
 
     def test_it_ends_by_signals(self):
         for how in (signal.SIGINT, signal.SIGTERM):

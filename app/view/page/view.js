@@ -2,6 +2,7 @@
 import { add, axes, cellsPerPixel, moved, nearer, project, turned } from "/camera.js";
 import { Ball } from "/ball.js";
 import { Books } from "/books.js";
+import { Cells } from "/cells.js";
 import { Film } from "/film.js";
 import { Hands } from "/hands.js";
 import { Numbers } from "/numbers.js";
@@ -21,6 +22,7 @@ const panel = new Panel(say, change);
 const past = new Past(say);
 const film = new Film(say);
 const books = new Books();
+const cells = new Cells(say, (line) => hands.may(line));
 const numbers = new Numbers(change);
 const own = new OwnPainter(say, () => ({ camera: camera(), ...state.size }), (head) => seen(head));
 
@@ -37,13 +39,14 @@ function connect() {
 }
 
 function hear(message) {
-  if (message.type === "world") { state.world = message; panel.showWorld(message); numbers.showWorld(message); drawHandles(); }
+  if (message.type === "world") { state.world = message; panel.showWorld(message); numbers.showWorld(message); cells.showWorld(message); drawHandles(); }
   if (message.type === "pick" && !ball.hear(message)) panel.showPick(message);
   if (message.type === "film") film.hear(message);
   if (message.type === "hands") hands.take(message);
   if (message.type === "dropped") books.skipped = message.frames;
   if (message.type === "books") books.take(message);
   if (message.type === "refused") {
+    if (message.line.startsWith("cells")) cells.follow();
     byId("notice").textContent = message.why;
     setTimeout(() => { if (byId("notice").textContent === message.why) byId("notice").textContent = ""; }, 6000);
   }
@@ -73,8 +76,9 @@ async function show(bytes) {
   canvas.getContext("2d").drawImage(picture, 0, 0);
   picture.close();
   canvas.dataset.quality = head.quality;
+  cells.showFrame(head, panel.busy);
   seen(head);
-  own.takeExact(head, canvas);
+  if (!head.cells) own.takeExact(head, canvas);
 }
 
 // The facts of a frame, or of textures.
@@ -296,8 +300,11 @@ addEventListener("keydown", (event) => {
   else if (event.key === ".") byId("single").click();
   else if (event.key === "r") byId("restart").click();
   else if (event.key === "h") { state.own = null; byId("home").click(); }
-  else if (event.key === "t") own.toggle();
-  else if (event.key === "d") own.toggleDifference();
+  else if (event.key === "t") byId("painter").click();
+  else if (event.key === "d") byId("compare").click();
+  else if (event.key === "f") cells.next("colours");
+  else if (event.key === "x") cells.next("cut-axis");
+  else if (event.key === "[" || event.key === "]") cells.move(event.key === "]" ? 1 : -1);
   else if (event.key === "b") byId("best").click();
   else if (event.key === ",") past.oneBack();
   else if (event.key === "p") byId("pour").click();

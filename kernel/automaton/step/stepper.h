@@ -15,6 +15,7 @@
 #include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/volume.h"
+#include "kernel/automaton/step/awake_tiles.h"
 #include "kernel/automaton/step/phase.h"
 
 namespace voxmelt::step {
@@ -55,6 +56,9 @@ class HostStepper : public Stepper {
   // Tells which irradiance is new in the step that begins. A step of visibility may go without this call.
   // Then all of it may be new.
   virtual void tell_irradiance(const state::ChangedRows& /*changed*/) {}
+
+  // Returns the tiles that the next step works on. Vents, drains and new irradiance may wake more of them.
+  virtual AwakeTiles awake() const { return {}; }
 };
 
 class DeviceStepper : public Stepper {

@@ -49,6 +49,11 @@ void HeatFlow::note_light(const state::ChangedRows& changed) {
   for (const state::ChangedRow& row : changed) light_.edit(row.z)[row.y >> tile_shift_] |= row.words;
 }
 
+void HeatFlow::tell_awake(Tiles& own, Tiles& with_neighbours) const {
+  for (const Tiles* tiles : {&restless_, &for_melt_, &light_}) own.add(*tiles);
+  with_neighbours.add(stale_);
+}
+
 void HeatFlow::note_light() { light_.fill(all_); }
 
 void HeatFlow::heat(const Job& job, Tiles& changed, simd::Books& books) {

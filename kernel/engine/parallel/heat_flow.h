@@ -26,6 +26,9 @@ class HeatFlow {
   void note_light(const state::ChangedRows& changed);  // new irradiance
   void note_light();                                   // new irradiance, anywhere
 
+  // Adds the tiles that are awake in the next step, and those whose neighbours are awake, too.
+  void tell_awake(Tiles& own, Tiles& with_neighbours) const;
+
   // Both functions add to `changed` the tiles that they change.
   void heat(const Job& job, Tiles& changed, simd::Books& books);
   void melt(const Job& job, Tiles& changed, simd::Books& books);

@@ -34,6 +34,9 @@ class PaperFlow {
   void gravity(const Job& job, const Tiles& dirty, simd::Books& books);
   void spread(const Job& job, const Tiles& dirty, Tiles& dirty_next, simd::Books& books);
 
+  // Returns the tiles that are awake in the next step, even if nothing changes beside them.
+  const Tiles& restless() const { return restless_; }
+
  private:
   struct Worker {
     // Is a ring of three in a chunk. At a cut it has the gifts of the slices before and after it.

@@ -264,6 +264,22 @@ void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::Changed
   tiles.clear();
 }
 
+step::AwakeTiles Stepper::awake() const {
+  if (!tuning_.sleep) return {};
+  Tiles own(dirty_.slices(), dirty_.rows()), with_neighbours = own;
+  if (heat_) heat_->tell_awake(own, with_neighbours);
+  if (viscous_) viscous_->tell_awake(own, with_neighbours);
+  if (paper_) {
+    own.add(paper_->restless());
+    for (const Tiles* tiles : {&dirty_, &melted_, &freed_}) with_neighbours.add(*tiles);
+  }
+  step::AwakeTiles awake{dirty_.rows(), tuning_.tile_shift, {}};
+  for (int z = 0; z < own.slices(); ++z)
+    for (int r = 0; r < own.rows(); ++r)
+      awake.tiles.push_back(own.slice(z)[r] | with_neighbours.near(z, r, ~TileRow{0}));
+  return awake;
+}
+
 void Stepper::settle(const Job& job, simd::Books& books) {
   if (viscous_) viscous_->settle(job, books);
 }

@@ -29,6 +29,7 @@ class Stepper final : public step::HostStepper {
   void tell_irradiance(const state::ChangedRows& changed) override;
   void change_sources(const rule::Parameters& parameters) override;
   void tell_changes(state::ChangedBricks& changed) override;
+  step::AwakeTiles awake() const override;
 
  private:
   simd::View view_of(state::Volume& volume);

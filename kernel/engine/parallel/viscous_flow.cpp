@@ -57,6 +57,11 @@ void ViscousFlow::find_work(const Job& job, const Tiles* noted, int z, bool besi
   std::fill(worker.changed.begin(), worker.changed.end(), TileRow{0});
 }
 
+void ViscousFlow::tell_awake(Tiles& own, Tiles& with_neighbours) const {
+  for (const Tiles* tiles : {&restless_, &for_settle_}) own.add(*tiles);
+  for (const Tiles* tiles : {&for_exchange_, &for_fall_}) with_neighbours.add(*tiles);
+}
+
 void ViscousFlow::settle(const Job& job, simd::Books& books) {
   // Every mobility is for one of so many sub-steps and stages. If their number changes, all runs are settled
   // again.

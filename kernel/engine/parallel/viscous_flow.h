@@ -26,6 +26,9 @@ class ViscousFlow {
   void spread(const Job& job, simd::Books& books);
   void fall(const Job& job, simd::Books& books);  // the last phase of a step
 
+  // Adds the tiles that are awake in the next step, and those whose neighbours are awake, too.
+  void tell_awake(Tiles& own, Tiles& with_neighbours) const;
+
   // Returns the tiles that the three phases have changed in this step.
   const Tiles& take_changed();
 

@@ -127,6 +127,55 @@ TEST_P(Calm, SleepersWakeInTime) {
   }
 }
 
+bool same_cell(const Volume& a, const Volume& b, int x, int y, int z) {
+  bool same = true;
+  state::for_each_field([&](const auto& row) {
+    const auto &one = a.*row.column, &other = b.*row.column;
+    if (!one.empty() && value_at(one, x, y, z) != value_at(other, x, y, z)) same = false;
+  });
+  return same;
+}
+
+// Tells if a tile of this slice or of the next ones is awake, in any row: columns settle as a whole. Each of
+// up to four passes of heat wakes one more slice.
+bool awake_near(const step::AwakeTiles& awake, Grid g, int z) {
+  for (int near = std::max(0, z - 4); near <= std::min(g.z - 1, z + 4); ++near)
+    for (int y = 0; y < g.y; ++y)
+      for (int x = 0; x < g.x; x += 64)
+        if (awake.test(x, y, near)) return true;
+  return false;
+}
+
+// Whoever looks at a run between two steps is told what sleeps.
+TEST_P(Calm, NothingChangesFarFromTilesThatAreToldToBeAwake) {
+  int asleep = 0, changed = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    Random random(seed * 7919 + static_cast<std::uint64_t>(GetParam()));
+    const Grid grid{random.between(3, 66), random.between(3, 9), random.between(17, 40)};
+    Parameters parameters = calm_parameters(random, GetParam(), grid);
+    parameters.heat.radiation = parameters.open_border = false;
+    parameters.heat.sources.clear();
+    parameters.vents.clear();
+    parameters.drains.clear();
+    parameters.pieces = {};
+    run::Simulation simulation(parameters, calm_volume(random, parameters, grid),
+                               fast_implementations().back(), sleepy(1, random.any({0, 1, 2})));
+    for (int step = 0; step < 12; ++step) {
+      const step::AwakeTiles awake = simulation.awake();
+      const Volume before = simulation.volume();
+      simulation.step();
+      for_each(whole(grid), [&](int x, int y, int z) {
+        if (!awake.test(x, y, z)) ++asleep;
+        if (same_cell(before, simulation.volume(), x, y, z)) return;
+        ++changed;
+        ASSERT_TRUE(awake_near(awake, grid, z)) << "seed " << seed << ", step " << step << ", slice " << z;
+      });
+    }
+  }
+  EXPECT_GT(asleep, 10000);
+  EXPECT_GT(changed, 10000);
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, Calm, testing::Values(rule::Law::paper, rule::Law::viscous),
                          [](const auto& chosen) {
                            return chosen.param == rule::Law::paper ? "paper" : "viscous";
