@@ -19,7 +19,8 @@ export class Cells {
     Object.assign(this, { say, may, grid: null, shown: undefined });
     byId("colours").addEventListener("change", () => this.ask());
     byId("cut-axis").addEventListener("change", () => {
-      if (this.grid && byId("cut-axis").value !== "none") byId("cut-at").value = this.side() / 2;
+      this.label();  // the slider's range is that of the axis
+      if (!byId("cut-at").disabled) byId("cut-at").value = Math.floor(this.side() / 2);
       this.askForCells();
     });
     byId("cut-at").addEventListener("input", () => this.askForCells());

@@ -127,15 +127,6 @@ TEST_P(Calm, SleepersWakeInTime) {
   }
 }
 
-bool same_cell(const Volume& a, const Volume& b, int x, int y, int z) {
-  bool same = true;
-  state::for_each_field([&](const auto& row) {
-    const auto &one = a.*row.column, &other = b.*row.column;
-    if (!one.empty() && value_at(one, x, y, z) != value_at(other, x, y, z)) same = false;
-  });
-  return same;
-}
-
 // Tells if a tile of this slice or of the next ones is awake, in any row: columns settle as a whole. Each of
 // up to four passes of heat wakes one more slice.
 bool awake_near(const step::AwakeTiles& awake, Grid g, int z) {
@@ -159,14 +150,15 @@ TEST_P(Calm, NothingChangesFarFromTilesThatAreToldToBeAwake) {
     parameters.drains.clear();
     parameters.pieces = {};
     run::Simulation simulation(parameters, calm_volume(random, parameters, grid),
-                               fast_implementations().back(), sleepy(1, random.any({0, 1, 2})));
+                               *run::implementations().find(fast_implementations().back()),
+                               sleepy(1, random.any({0, 1, 2})));
     for (int step = 0; step < 12; ++step) {
       const step::AwakeTiles awake = simulation.awake();
       const Volume before = simulation.volume();
       simulation.step();
       for_each(whole(grid), [&](int x, int y, int z) {
         if (!awake.test(x, y, z)) ++asleep;
-        if (same_cell(before, simulation.volume(), x, y, z)) return;
+        if (state::same_cell(before, simulation.volume(), x, y, z)) return;
         ++changed;
         ASSERT_TRUE(awake_near(awake, grid, z)) << "seed " << seed << ", step " << step << ", slice " << z;
       });
