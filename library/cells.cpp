@@ -43,8 +43,8 @@ std::optional<render::CellCut> cut_of(const CellView& view, Grid grid) {
                          library::checked("cut.at", view.cut->at, 0, side, "CellView")};
 }
 
-void check_colours(const state::Volume& volume, CellColours colours) {
-  if (colours == CellColours::temperature && volume.heat.empty())
+void check_colours(const run::Simulation& simulation, CellColours colours) {
+  if (colours == CellColours::temperature && !simulation.parameters().heat.enabled)
     throw InputError("CellView: error: colours = temperature: the scene has no [heat]");
 }
 
@@ -103,7 +103,7 @@ Frame Simulation::render_cells(const CellView& view, const Picture& picture) {
   const scene::Camera camera = library::camera_of(parts_->scene().camera, picture);
   const int alignment = library::row_alignment_of(picture);
   const std::optional<render::CellCut> cut = cut_of(view, grid());
-  check_colours(parts_->simulation.volume(), view.colours);
+  check_colours(parts_->simulation, view.colours);
   const render::ColourOf colours = colour_of(parts_->simulation, view.colours);
   return library::translated([&] {
     Cast cast(parts_->simulation.volume(), camera, cut, parts_->threads);
@@ -118,7 +118,7 @@ std::optional<Hit> Simulation::pick_cell(int x, int y, const CellView& view, con
   library::checked("x", x, 0, camera.width - 1, "pick");
   library::checked("y", y, 0, camera.height - 1, "pick");
   const std::optional<render::CellCut> cut = cut_of(view, grid());
-  check_colours(parts_->simulation.volume(), view.colours);
+  check_colours(parts_->simulation, view.colours);
   return library::translated([&]() -> std::optional<Hit> {
     const state::Volume& volume = parts_->simulation.volume();
     const Cast cast(volume, camera, cut, parts_->threads);

@@ -1,7 +1,6 @@
 #include "render/cells/cell_caster.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -18,7 +17,11 @@ Triple in_cells(picture::Vector v) {
 
 // A ray at a place of its way, in the cell that it is about to cross.
 struct Walk {
-  Triple start, step;
+  Walk(const Triple& from, const Triple& by) : start(from), step(by) {
+    for (std::size_t a = 0; a < kAxes; ++a) per_cell[a] = step[a] == 0 ? 0 : 1 / step[a];
+  }
+
+  Triple start, step, per_cell{};  // per_cell: 1 / step
   double t = 0;
   CellIndex cell{};
   int axis = -1;  // that it crossed last
@@ -34,7 +37,7 @@ struct Walk {
         if (start[a] < low[a] || start[a] >= high[a]) return false;
         continue;
       }
-      const double one = (low[a] - start[a]) / step[a], other = (high[a] - start[a]) / step[a];
+      const double one = (low[a] - start[a]) * per_cell[a], other = (high[a] - start[a]) * per_cell[a];
       if (std::min(one, other) > t) {
         t = std::min(one, other);
         axis = static_cast<int>(a);
@@ -57,7 +60,7 @@ struct Walk {
     for (std::size_t a = 0; a < kAxes; ++a) {
       low[a] = cell[a] & -side;
       if (step[a] == 0) continue;
-      const double end = ((step[a] > 0 ? low[a] + side : low[a]) - start[a]) / step[a];
+      const double end = ((step[a] > 0 ? low[a] + side : low[a]) - start[a]) * per_cell[a];
       if (end >= out) continue;
       out = end;
       axis = static_cast<int>(a);
@@ -70,8 +73,7 @@ struct Walk {
 
  private:
   int clamped(std::size_t a, int low, int high) const {
-    const double cells = std::floor(place(a));
-    return cells <= low ? low : cells >= high - 1 ? high - 1 : static_cast<int>(cells);
+    return std::clamp(static_cast<int>(place(a)), low, high - 1);  // low is no less than 0
   }
 };
 
@@ -97,7 +99,7 @@ CellCaster::CellCaster(const FilledCells& filled, const picture::View& view,
 
 std::optional<SeenCell> CellCaster::see(std::int64_t across, std::int64_t down) const {
   const picture::Ray ray = picture::ray_through(view_, across, down, 0);
-  Walk walk{in_cells(ray.start), in_cells(ray.step)};
+  Walk walk(in_cells(ray.start), in_cells(ray.step));
   if (!walk.enter(low_, high_)) return std::nullopt;
   bool first = true;
   while (is_inside(walk.cell, low_, high_)) {

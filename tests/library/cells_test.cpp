@@ -55,6 +55,7 @@ class Cells : public SceneFile {
     picture.camera = camera;
     picture.width = 8 * grid.x;
     picture.height = 8 * grid.y;
+    picture.quality = Quality::fast;
     return picture;
   }
   // Returns the colour of the pixel that lies so many cells to the right, and from the top.
@@ -85,7 +86,7 @@ TEST_F(Cells, FacesHaveTheColoursOfTheirPhasesAndLookTheirWay) {
   // From its side, x, and from 45 degrees above.
   EXPECT_EQ(at(simulation.render_cells({}, parallel(simulation.grid(), -90)), 20 - 2, 11.5),
             (Rgb{83, 92, 101}));
-  EXPECT_EQ(at(simulation.render_cells({}, parallel(simulation.grid(), 0, 89)), 15.5, 10 + 0.5), kSolid);
+  EXPECT_EQ(at(simulation.render_cells({}, parallel(simulation.grid(), 0, 89)), 15.5, 10 - 1.5), kSolid);
 }
 
 TEST_F(Cells, ACutShowsTheCellsBehindItInTheirOwnColours) {
@@ -142,7 +143,7 @@ TEST_F(Cells, TemperaturesAreColoursOfAScale) {
   EXPECT_EQ(at(frame, 10.5, 11.5), (Rgb{170, 170, 170})) << "the floor has no temperature";
 }
 
-// A liquid of 0.6 has a heat content of 0.8 if melting took up 0.2.
+// A scene gives heat contents. One of 0.8 is a temperature of 0.6 if melting took up 0.2.
 TEST_F(Cells, LatentHeatIsNoTemperature) {
   Simulation simulation(write("latent.toml", R"(
 [grid]
@@ -151,7 +152,7 @@ size = [16, 8, 8]
 shape = "box"
 size = [8, 8, 8]
 at = [8, 4, 4]
-temperature = 0.6
+temperature = 0.8
 [material]
 melting_point = 0.5
 latent_heat = 0.2

@@ -214,9 +214,15 @@ class BrowserTest(InBrowser):
         self.wait(lambda: self.element("cut-place").text == f"{most // 4 + 1} of {most}")
         self.changes_picture(lambda: move(0))
         self.assertEqual(self.colour(0.5, 0.5), [232, 236, 240], "all is cut off")
-        # The other painter draws the exact picture.
-        self.element("painter").click()
-        self.wait(lambda: shown() == ["none", "none"] or not self.element("legend").is_displayed())
+        # Another page may show something else.
+        with Page(self.server) as page:
+            page.send("hands")
+            self.wait(lambda: self.element("hands").is_displayed())
+            self.element("hands-button").click()
+            page.send("cells sleep y 9")
+            self.wait(lambda: shown() == ["sleep", "y"] and self.element("cut-at").get_attribute("value") == "9")
+            hand("f")
+            self.assertEqual(shown(), ["sleep", "y"], "who looks on chooses nothing")
         self.no_errors()
 
     def test_back_in_time(self):

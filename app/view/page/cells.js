@@ -2,6 +2,7 @@
 
 const byId = (id) => document.getElementById(id);
 const sides = { x: 0, y: 1, z: 2 };
+const painters = ["painter", "compare"];
 const isNumber = (mark) => Number.isFinite(Number(mark.name));
 const rgb = (mark) => `rgb(${mark.rgb.join(", ")})`;
 
@@ -25,7 +26,7 @@ export class Cells {
     });
     byId("cut-at").addEventListener("input", () => this.askForCells());
     // The page's own painter draws the exact picture.
-    for (const one of ["painter", "compare"]) byId(one).addEventListener("click", () => { if (this.shown) say("cells none"); });
+    for (const one of painters) byId(one).addEventListener("click", () => { if (this.shown) this.end(); });
   }
 
   showWorld(world) { this.grid = world.grid; this.label(); }
@@ -41,7 +42,14 @@ export class Cells {
     const colours = byId("colours").value, axis = byId("cut-axis").value;
     if (!this.may("cells")) return this.follow();
     this.label();
+    if (colours !== "none") for (const one of painters) if (byId(one).classList.contains("on")) byId(one).click();
     this.say(colours === "none" ? "cells none" : axis === "none" ? `cells ${colours}` : `cells ${colours} ${axis} ${byId("cut-at").value}`);
+  }
+
+  // No frame may come that says it, if this page draws by itself.
+  end() {
+    this.say("cells none");
+    this.showFrame({});
   }
 
   // By keys.
