@@ -59,9 +59,8 @@ Film::Progress made(const Film::Plan& plan, const Film::Tell& tell, const std::s
 Film::Film(Plan plan, Tell tell) {
   if (!render::ffmpeg_found())
     throw InputError(
-        "error: there is no `ffmpeg`, which makes films: Debian's package `ffmpeg` has it; `Scene` saves "
-        "what "
-        "`voxmelt run` draws frames of");
+        "error: there is no `ffmpeg`, which makes films: Debian's package `ffmpeg` has it; `voxmelt run` "
+        "draws the frames of what `Save scene` gives");
   thread_ = std::jthread([plan = std::move(plan), tell = std::move(tell)](const std::stop_token& stop) {
     constexpr int kPolite = 10;
     (void)::setpriority(PRIO_PROCESS, 0, kPolite);  // of this thread: whoever looks at the page comes first
