@@ -2,6 +2,7 @@
 
 const byId = (id) => document.getElementById(id);
 const sides = { x: 0, y: 1, z: 2 };
+const kPatience = 3000;  // milliseconds in which frames may show what was wished for before
 const painters = ["painter", "compare"];
 const isNumber = (mark) => Number.isFinite(Number(mark.name));
 const rgb = (mark) => `rgb(${mark.rgb.join(", ")})`;
@@ -17,7 +18,7 @@ function swatch(mark) {
 export class Cells {
   // say(line) sends a line, if this page may say it.
   constructor(say, may) {
-    Object.assign(this, { say, may, grid: null, shown: undefined });
+    Object.assign(this, { say, may, grid: null, shown: undefined, asked: -kPatience });
     byId("colours").addEventListener("change", () => this.ask());
     byId("cut-axis").addEventListener("change", () => {
       this.label();  // the slider's range is that of the axis
@@ -42,6 +43,7 @@ export class Cells {
     const colours = byId("colours").value, axis = byId("cut-axis").value;
     if (!this.may("cells")) return this.follow();
     this.label();
+    this.asked = performance.now();
     if (colours !== "none") for (const one of painters) if (byId(one).classList.contains("on")) byId(one).click();
     this.say(colours === "none" ? "cells none" : axis === "none" ? `cells ${colours}` : `cells ${colours} ${axis} ${byId("cut-at").value}`);
   }
@@ -50,6 +52,7 @@ export class Cells {
   end() {
     this.say("cells none");
     this.showFrame({});
+    this.follow();
   }
 
   // By keys.
@@ -77,7 +80,7 @@ export class Cells {
     this.shown = cells;
     byId("legend").hidden = !cells;
     if (cells) this.showLegend(cells.legend);
-    if (!quiet) this.follow();
+    if (!quiet && performance.now() - this.asked > kPatience) this.follow();
   }
 
   // The panel shows what the picture shows, also after a wish that was refused.
