@@ -44,6 +44,8 @@ export class Cells {
     if (!this.may("cells")) return this.follow();
     this.label();
     this.asked = performance.now();
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.follow(), kPatience);
     if (colours !== "none") for (const one of painters) if (byId(one).classList.contains("on")) byId(one).click();
     this.say(colours === "none" ? "cells none" : axis === "none" ? `cells ${colours}` : `cells ${colours} ${axis} ${byId("cut-at").value}`);
   }
