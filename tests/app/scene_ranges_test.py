@@ -36,6 +36,9 @@ rate = 0.1
 shape = "box"
 size = [2, 2, 2]
 at = [2, 2, 2]
+[[change]]
+step = 3
+do = ["vent.0.rate 0.2"]
 """
 WITH = {"material.latent_heat": ["material.melting_point=0.000001"],  # at most 1 together
         "material.freezing_point": ["material.melting_point=1", "materials.0.melting_point=1"],
