@@ -1,5 +1,7 @@
 #include "kernel/scene/timeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -75,7 +77,13 @@ std::string with_timeline(const std::string& text, const std::vector<Change>& mo
   std::optional<Reader> start = root.table("start");
   const std::uint32_t first = start ? start->integer("step", 0, kLastStep, 0) : 0;
   std::vector<Change> all = more;
-  for (Change& one : all) one.step += first;
+  for (Change& one : all) {
+    if (one.step > kLastStep - first)
+      throw InputError(fmt::format(
+          "error: a change after {} steps of a scene that begins at step {} is beyond the last one, {}",
+          one.step, first, kLastStep));
+    one.step += first;
+  }
   for (Change& own : read_timeline(root)) all.push_back(std::move(own));
   sort_by_step(all);
   document.remove("change");  // it comes last, where a reader looks for what was added

@@ -10,32 +10,14 @@
 
 #include "library/journal/journal.h"
 #include "library/journal/world.h"
+#include "tests/fuzz/small_world.h"
 #include "tests/fuzz/target.h"
 #include "voxmelt/voxmelt.h"
 
 namespace {
 
-constexpr const char* kScene = R"(title = "small"
-[grid]
-size = [9, 8, 7]
-[[solid]]
-shape = "box"
-size = [4, 4, 4]
-at = [4, 4, 4]
-temperature = 0.49
-[[inert]]
-shape = "floor"
-thickness = 1
-[material]
-melting_point = 0.5
-[heat]
-gamma = 0.15
-[[heat_source]]
-at = [9, 9, 9]
-power = 9
-[flow]
-)";
-constexpr const char* kLaws[] = {"law = \"paper\"\n", "law = \"viscous\"\n[flow.viscous]\nkappa = 0.1\n"};
+constexpr const char* kLaws[] = {"[flow]\nlaw = \"paper\"\n",
+                                 "[flow]\nlaw = \"viscous\"\n[flow.viscous]\nkappa = 0.1\n"};
 constexpr std::uint32_t kSteps = 6;
 
 bool same(const std::vector<voxmelt::journal::Line>& a, const std::vector<voxmelt::journal::Line>& b) {
@@ -47,8 +29,8 @@ bool same(const std::vector<voxmelt::journal::Line>& a, const std::vector<voxmel
 // A change that is refused changes nothing, and the books balance whatever was changed.
 void run(std::vector<voxmelt::journal::Line> lines, bool viscous) {
   using namespace voxmelt;
-  static const auto file = fuzz::write("scene.toml", std::string(kScene) + kLaws[0]);
-  static const auto other = fuzz::write("viscous.toml", std::string(kScene) + kLaws[1]);
+  static const auto file = fuzz::write("scene.toml", std::string(fuzz::kSmallWorld) + kLaws[0]);
+  static const auto other = fuzz::write("viscous.toml", std::string(fuzz::kSmallWorld) + kLaws[1]);
   Simulation simulation(viscous ? other : file, {{}, "reference", 1});
   journal::WorldOf<Simulation> world(simulation);
   for (journal::Line& line : lines) {

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "app/view/session.h"
+#include "tests/fuzz/small_world.h"
 #include "tests/fuzz/target.h"
 #include "voxmelt/voxmelt.h"
 
@@ -21,25 +22,7 @@ namespace {
 using voxmelt::view::Client;
 using voxmelt::view::Message;
 
-constexpr const char* kScene = R"(title = "small"
-[grid]
-size = [9, 8, 7]
-[[solid]]
-shape = "box"
-size = [4, 4, 4]
-at = [4, 4, 4]
-temperature = 0.49
-[[inert]]
-shape = "floor"
-thickness = 1
-[material]
-melting_point = 0.5
-[heat]
-gamma = 0.15
-[[heat_source]]
-at = [9, 9, 9]
-power = 9
-[pieces]
+constexpr const char* kRest = R"([pieces]
 [flow]
 law = "paper"
 [camera]
@@ -100,7 +83,7 @@ nlohmann::json head_of(const Message& message) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace voxmelt;
   if (size > 2000) return 0;
-  static const auto file = fuzz::write("scene.toml", kScene);
+  static const auto file = fuzz::write("scene.toml", std::string(fuzz::kSmallWorld) + kRest);
   std::deque<std::string> lines = lines_of(fuzz::text_of(data, size));
   const auto open = [](const std::filesystem::path& checkpoint) {
     return Simulation(checkpoint.empty() ? file : checkpoint, {{}, "reference", 1});

@@ -109,6 +109,8 @@ class BrowserTest(InBrowser):
         press("heat_source.0.power")
         self.wait(lambda: power() == 0)
         self.shot("source_off")
+        self.driver.refresh()  # a page that is loaded again still knows the power
+        self.wait(lambda: self.data("digest"))
         press("heat_source.0.power")
         self.wait(lambda: power() == first["power"])
         choose = lambda kind: self.driver.execute_script(

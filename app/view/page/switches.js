@@ -16,15 +16,18 @@ export const opening = (name, one, i, change) =>
          () => change(`${name}.${i}.${one.open ? "off" : "on"}`));
 
 export class Sources {
-  constructor(change) { this.change = change; this.powers = []; }
+  // The powers of what is off outlive a reload of the page.
+  constructor(change) { this.change = change; this.powers = JSON.parse(sessionStorage.getItem("powers") ?? "[]"); }
 
   take(world) {
     this.grid = world.grid;
     world.heat_sources.forEach(({ keyframes }, i) => {
       if (keyframes.at(-1).power > 0) this.powers[i] = keyframes.at(-1).power;
     });
+    this.keep();
   }
-  removed(i) { this.powers.splice(i, 1); }
+  keep() { sessionStorage.setItem("powers", JSON.stringify(this.powers)); }
+  removed(i) { this.powers.splice(i, 1); this.keep(); }
 
   // What is off has no power. On again, it has the one that it had.
   power(source, i) {
@@ -53,7 +56,7 @@ export class Sources {
     const at = near(source.kind) ? now.at : middle.map((v, k) => v + (away[k] / length(away)) * distance);
     const factor = near(kind) === near(source.kind) ? 1 : near(kind) ? distance ** 2 : distance ** -2;
     const rounded = (v) => Number(v.toPrecision(6)), place = (near(kind) ? at : away).map(rounded);
-    if (now.power === 0) delete this.powers[i];  // that was of another unit
+    if (now.power === 0) { delete this.powers[i]; this.keep(); }  // that was of another unit
     this.change(`heat_source.${i}.${kinds[kind]}`, ...(kind === "sky" ? [] : place),
                 ...(kind === "sphere" ? [Math.max(1, rounded(now.radius || Math.max(...this.grid) / 20))] : []), rounded(now.power * factor));
   }
