@@ -45,9 +45,19 @@ void set_size(scene::Camera& camera, const std::string& size) {
         fmt::format("--size {}: error: want WIDTHxHEIGHT, each 16 to {}", size, scene::kWidestPicture));
 }
 
-Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan)
+Option add_setting(Command command, std::string& setting, const std::string& what) {
+  return command.option("--setting", setting, what + "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
+      .one_of({render::kSettingNames.begin(), render::kSettingNames.end()})
+      .shows_default();
+}
+
+render::Setting setting_of(const std::string& name) { return render::setting_named(name).value(); }
+
+Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan,
+           render::Setting setting)
     : scene_(scene),
       threads_(plan.threads),
+      setting_(setting),
       frames_(folder, with_frame_bytes(plan, scene.camera)),
       drawing_(plan.threads > 1 ? 1 : 0, 1, [this](Shot& shot) { draw(shot); }) {
   picture_.stop_when(interrupted_for_long);
@@ -81,7 +91,7 @@ bool Film::is_slow() const { return slow_ || frame_bytes(scene_.camera) > kLarge
 void Film::draw(const Shot& shot) {
   const auto begin = std::chrono::steady_clock::now();
   try {
-    render::Image image = picture_.draw(scene_.camera, render::Setting::normal, threads_);
+    render::Image image = picture_.draw(scene_.camera, setting_, threads_);
     seconds_.render += seconds_since(begin);
     slow_ = seconds_since(begin) > kSlow;
     frames_.add(std::move(image), label_of(shot.step));

@@ -8,23 +8,29 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.h"
 #include "app/report.h"
 #include "kernel/scene/scene.h"
 #include "render/frames/frames.h"
 #include "render/frames/work_line.h"
+#include "render/packet/draw_picture.h"
 #include "render/packet/picture.h"
 
 namespace voxmelt::app {
 
 // Sets the camera's size from "640x480". Throws UsageError.
 void set_size(scene::Camera& camera, const std::string& size);
+// Adds the option --setting. `what` begins its text.
+Option add_setting(Command command, std::string& setting, const std::string& what = {});
+render::Setting setting_of(const std::string& name);  // a name that the option takes
 
 // Frames are drawn, written and joined to a film beside the steps that follow, unless there is one thread
 // only.
 class Film {
  public:
   // Frames go into `folder`. The plan need not say how large they are: the scene does.
-  Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan);
+  Film(const scene::Scene& scene, const std::filesystem::path& folder, const render::Frames::Plan& plan,
+       render::Setting setting);
 
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
   void add_frame(const state::Volume& volume, std::uint32_t step);
@@ -57,6 +63,7 @@ class Film {
 
   const scene::Scene& scene_;
   int threads_;
+  render::Setting setting_;
   render::Picture picture_;
   render::Frames frames_;
   std::vector<std::uint32_t> steps_;  // steps of the frames

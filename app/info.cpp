@@ -90,6 +90,7 @@ int run_info(const std::string& given) {
   print("frames         {}\n", record.frames.size());
   std::string options = fmt::format("steps {}, frame every {}", record.steps, record.frame_every);
   if (!record.size.empty()) options += ", size " + record.size;
+  if (record.setting != "normal") options += ", setting " + record.setting;
   if (!record.checkpoint_every.empty()) options += ", checkpoint every " + record.checkpoint_every;
   options += fmt::format(", implementation {}, threads {}", record.common.implementation,
                          record.common.threads == 0 ? "all" : std::to_string(record.common.threads));

@@ -196,9 +196,7 @@ int run_render(RenderOptions options) {
   run_to(scene, simulation, options);
   warn_of_limit(scene, options.common, simulation);
   const auto report = [&] { return report_json(scene, options.common, simulation, {}); };
-  const render::Setting setting = options.setting == "fast"   ? render::Setting::fast
-                                  : options.setting == "best" ? render::Setting::best
-                                                              : render::Setting::normal;
+  const render::Setting setting = setting_of(options.setting);
   if (options.trace) {
     render::print_trace(std::cout, simulation.volume(), scene.look, scene.light, scene.terrain, scene.camera,
                         setting, traced.x, traced.y);
@@ -231,9 +229,7 @@ void add_render(CommandLine& program) {
       command.option("--depth", options->depth, "also write how far the surface is (PNG, 16 bits)");
   const Option normals =
       command.option("--normals", options->normals, "also write where the surface faces (PNG, 3 x 16 bits)");
-  command.option("--setting", options->setting, "samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
-      .one_of({"fast", "normal", "best"})
-      .shows_default();
+  add_setting(command, options->setting);
   command.option("--azimuth", options->azimuth, "degrees around the vertical, instead of the scene's")
       .within(-360.0, 360.0);
   command.option("--elevation", options->elevation, "degrees above the horizon, instead of the scene's")

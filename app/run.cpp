@@ -40,6 +40,7 @@ struct RunOptions {
   std::optional<std::uint32_t> frame_every;
   std::string out;
   std::optional<std::string> size;
+  std::string setting = "normal";
   std::optional<int> fps;
   std::optional<std::string> checkpoint_every, wall_clock;
   std::string journal;          // file; empty for none
@@ -107,6 +108,7 @@ PreparedRun prepare(const RunOptions& options) {
   record.frame_every = options.frame_every.value_or(scene.frame_every);
   record.size = options.size.value_or("");
   if (options.size) set_size(scene.camera, *options.size);
+  record.setting = options.setting;
   record.checkpoint_every = options.checkpoint_every.value_or("");
   record.frames_per_second = options.fps.value_or(record.frames_per_second);
   record.id = by_chance();
@@ -179,6 +181,7 @@ void add_run(CommandLine& program) {
   begins(command.option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
   begins(command.option("--out", options->out, "folder to write (default: out/SCENE)"));
   begins(command.option("--size", options->size, "size of a frame in pixels, e.g. 640x480"));
+  begins(add_setting(command, options->setting, "of a frame, "));
   command.option("--fps", options->fps, "frames of the film in a second (default: 12)")
       .within(1, kMostFramesPerSecond);
   command.option("--checkpoint-every", options->checkpoint_every,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/run/checkpoint/blocks.h"
+#include "render/packet/draw_picture.h"
 
 namespace voxmelt::app {
 namespace {
@@ -64,6 +65,7 @@ std::string json_of(const RunRecord& record) {
   json result{{"steps", record.steps},
               {"frame_every", record.frame_every},
               {"size", record.size},
+              {"setting", record.setting},
               {"checkpoint_every", record.checkpoint_every},
               {"fps", record.frames_per_second},
               {"id", record.id},
@@ -95,6 +97,9 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     record.steps = whole<std::uint32_t>(object.at("steps"), "steps", file);
     record.frame_every = whole<std::uint32_t>(object.at("frame_every"), "frame_every", file);
     record.size = object.at("size").get<std::string>();
+    if (object.contains("setting")) record.setting = object.at("setting").get<std::string>();
+    if (!render::setting_named(record.setting))
+      checkpoint::fail(file, "its head: command.setting is none of this program's");
     record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
     record.id = object.at("id").get<std::string>();
     if (object.contains("fps")) record.frames_per_second = whole<int>(object.at("fps"), "fps", file);

@@ -19,13 +19,14 @@ inline constexpr int kMostFramesPerSecond = 240;
 struct RunRecord {
   Common common;  // scene left empty
   std::uint32_t steps = 0, frame_every = 0;
-  std::string size;              // as --size; empty for the scene's
-  std::string checkpoint_every;  // as --checkpoint-every; empty for none
-  std::string journal;           // text of --journal; empty for none
-  std::string journal_name;      // as --journal
-  int frames_per_second = 12;    // of the film
-  std::string id;                // random name of this run
-  std::string shown_place;       // place of the output, as the user named it
+  std::string size;                // as --size; empty for the scene's
+  std::string setting = "normal";  // as --setting
+  std::string checkpoint_every;    // as --checkpoint-every; empty for none
+  std::string journal;             // text of --journal; empty for none
+  std::string journal_name;        // as --journal
+  int frames_per_second = 12;      // of the film
+  std::string id;                  // random name of this run
+  std::string shown_place;         // place of the output, as the user named it
   std::vector<checkpoint::FileState> frames;
   std::vector<std::uint32_t> frame_steps;
   Watch::Seen seen;

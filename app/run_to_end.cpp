@@ -61,7 +61,7 @@ class Run {
         begun_at_(run_.scene.mid_run ? run_.scene.mid_run->steps_done : 0),
         simulation_(make_simulation(run_.scene, common())),
         journal_(record().journal, record().journal_name, run_.scene, simulation_),
-        film_(std::in_place, run_.scene, out().partial(), plan()),
+        film_(std::in_place, run_.scene, out().partial(), plan(), setting_of(record().setting)),
         checkpoints_(out().partial(), run_.scene, std::move(run_.text), thread_count(common())),
         watch_(record().seen) {
     film_->keep(record().frame_steps);

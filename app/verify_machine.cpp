@@ -138,8 +138,8 @@ SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& 
                               const hwmodel::MachineReport& report, const hwmodel::MachineOptions& options) {
   const step::Implementation& fast = find_implementation(command.common);
   const std::uint32_t steps = command.steps, frames = command.picture.frames;
-  const Software here =
-      measure_software(scene, camera, setting_of(command.picture), ahead, fast, steps, steps / frames);
+  const Software here = measure_software(scene, camera, setting_of(command.picture.setting), ahead, fast,
+                                         steps, steps / frames);
   const double n = frames;
   if (!command.common.quiet) {
     print("{}", hwmodel::table_of(report, options));
@@ -169,7 +169,7 @@ hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Sc
        ahead.step_number(),
        find_implementation(command.common),
        tuning,
-       {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting_of(choice)}},
+       {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting_of(choice.setting)}},
       options);
   if (!command.plant.empty() && report.good() && !struck(report))
     throw UsageError(fmt::format(

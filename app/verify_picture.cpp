@@ -83,11 +83,7 @@ void add_picture_choice(Command command, PictureChoice& choice) {
   command.option("--view", choice.view,
                  "with --picture or --machine: the camera's AZIMUTH,ELEVATION in degrees");
   command.option("--size", choice.size, "with --picture: size in pixels, e.g. 256x256");
-  command
-      .option("--setting", choice.setting,
-              "with --picture: samples per pixel: fast 1, normal 1 or 8, best 1 or 32")
-      .one_of({"fast", "normal", "best"})
-      .shows_default();
+  add_setting(command, choice.setting, "with --picture: ");
   command
       .option("--frames", choice.frames,
               "with --picture: draw it so often; with --machine: pictures of the steps")
@@ -107,12 +103,6 @@ scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene) 
   if (!choice.size.empty()) set_size(camera, choice.size);
   if (!choice.view.empty()) set_view(camera, choice.view);
   return camera;
-}
-
-render::Setting setting_of(const PictureChoice& choice) {
-  return choice.setting == "fast"   ? render::Setting::fast
-         : choice.setting == "best" ? render::Setting::best
-                                    : render::Setting::normal;
 }
 
 void check_html_place(const Common& common, const PictureChoice& choice, const std::string& out) {
@@ -215,7 +205,7 @@ int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const
   const scene::Camera camera = camera_of(command.picture, scene);
   const hwmodel::raycast::PictureOptions options = options_of(command, configured.caster, fault, camera);
   const hwmodel::raycast::PictureInput input{state.volume(), scene.look, scene.light,
-                                             scene.terrain,  camera,     setting_of(command.picture)};
+                                             scene.terrain,  camera,     setting_of(command.picture.setting)};
   const hwmodel::raycast::PictureReport report = hwmodel::raycast::verify_picture(input, options);
   if (fault != nullptr && report.good() && !report.strike)
     throw UsageError(fmt::format(

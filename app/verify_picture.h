@@ -25,7 +25,6 @@ std::string first_line(const std::string& text);
 
 // Returns the scene's camera as chosen. Throws UsageError.
 scene::Camera camera_of(const PictureChoice& choice, const scene::Scene& scene);
-render::Setting setting_of(const PictureChoice& choice);
 
 // Writes the waves of a run. Returns why there are none, or nothing if there are some or nobody asked.
 std::string write_waves(const std::string& vcd, std::optional<std::int64_t> from, const std::string& waves);

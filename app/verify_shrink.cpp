@@ -48,8 +48,7 @@ std::string typed(const VerifyCommand& command, const hwmodel::raycast::PictureC
   const hwmodel::raycast::Configuration& c = small.configuration;
   for (const hwmodel::raycast::CasterKey& key : hwmodel::raycast::kCasterKeys)
     if (key.get(c) != key.get(whole)) text += fmt::format(" --set hw.{}={}", key.name, key.get(c));
-  constexpr std::array kSettings{"fast", "normal", "best"};
-  text += fmt::format(" --setting {}", kSettings[static_cast<std::size_t>(small.setting)]);
+  text += fmt::format(" --setting {}", render::kSettingNames[static_cast<std::size_t>(small.setting)]);
   return text + " --pixel " + hwmodel::raycast::pixel_text(small.window);
 }
 

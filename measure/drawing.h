@@ -18,8 +18,8 @@ namespace voxmelt::measure {
 
 inline constexpr int kPictureSide = 512;  // pixels
 inline constexpr int kPictureSteps = 3;   // steps between two pictures
-inline constexpr std::array kSettings{render::Setting::fast, render::Setting::normal, render::Setting::best};
-inline constexpr std::array<const char*, kSettings.size()> kSettingNames{"fast", "normal", "best"};
+using render::kSettingNames;
+using render::kSettings;
 using PerSetting = std::array<double, kSettings.size()>;
 
 // A drawer has the packets, and the loops of a processor that has this set.

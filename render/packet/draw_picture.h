@@ -1,7 +1,11 @@
 // The picture is drawn by packets of rays (docs/picture/definition.md).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
+#include <optional>
+#include <string_view>
 
 #include "kernel/engine/cpu/instruction_set.h"
 #include "render/image/image.h"
@@ -16,6 +20,13 @@ const Packets& best_packets();
 
 // A picture has one sample a pixel, or eight or thirty-two if a pixel differs from a neighbour.
 enum class Setting { fast, normal, best };
+inline constexpr std::array kSettings{Setting::fast, Setting::normal, Setting::best};
+inline constexpr std::array<const char*, kSettings.size()> kSettingNames{"fast", "normal", "best"};
+constexpr std::optional<Setting> setting_named(std::string_view name) {
+  for (std::size_t i = 0; i < kSettings.size(); ++i)
+    if (name == kSettingNames[i]) return kSettings[i];
+  return std::nullopt;
+}
 
 // Returns the spacing of samples. They are 2^-spacing cells apart on a ray.
 constexpr int spacing_of(Setting setting, const picture::View& view) {

@@ -321,6 +321,10 @@ class Checkpoints(unittest.TestCase):
                 file = self.crafted(head_change=lambda head: head.update(command=json.dumps(command)))
                 file.rename(crafted / "checkpoints" / self.checkpoint.name)
                 self.refused("run", "--resume", "crafted", names=f"command.{key} is out of its range")
+        command = {**json.loads(head["command"]), "setting": "better"}
+        file = self.crafted(head_change=lambda head: head.update(command=json.dumps(command)))
+        file.rename(crafted / "checkpoints" / self.checkpoint.name)
+        self.refused("run", "--resume", "crafted", names="command.setting is none of this program's")
 
     def masks(self):
         _, columns = checkpoint_reader.read(self.checkpoint)

@@ -65,6 +65,24 @@ class Frames(unittest.TestCase):
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 
+    # A frame is what `render` draws of its step, by the setting that was asked for, also after a resumption.
+    def test_frames_are_of_the_setting(self):
+        seen = set()
+        for setting in ("fast", "normal", "best"):
+            asked = () if setting == "normal" else ("--setting", setting)
+            self.run_scene(setting, "--steps", 3, "--frame-every", 3, *asked)
+            result = voxmelt("run", "--resume", setting, "--steps", 6, cwd=self.folder, env=self.with_ffmpeg(CAT))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for frame, step in enumerate((0, 3, 6)):
+                drawn = voxmelt("render", self.scene, "--steps", step, "--setting", setting, "--out", "one.png", cwd=self.folder)
+                self.assertEqual(drawn.returncode, 0, drawn.stderr)
+                made = self.folder / setting / f"frames/frame_{frame:05d}.png"
+                self.assertEqual(made.read_bytes(), (self.folder / "one.png").read_bytes(), f"{setting}, step {step}")
+            seen.add(made.read_bytes())
+        self.assertEqual(len(seen), 3, "the settings draw the same: the test would prove nothing")
+        refused = voxmelt("run", self.scene, "--setting", "better", cwd=self.folder)
+        self.assertEqual((refused.returncode, "best" in refused.stderr), (2, True), refused.stderr)
+
     def test_no_byte_depends_on_threads(self):
         made, reports = [], []
         for threads in (1, 2, 8):

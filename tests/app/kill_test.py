@@ -17,6 +17,7 @@ from pathlib import Path
 PROGRAM = str(Path(sys.argv[1]).resolve())
 
 # Heat moves and lets rays be cast anew, liquid flows in at a vent and leaves: every term of the ledgers moves.
+# Hands change it meanwhile.
 SCENE = """title = "killed"
 [grid]
 size = [64, 48, 64]
@@ -49,6 +50,15 @@ rate = 0.2
 at = [3, 3, 3]
 radius = 3
 rate = 0.5
+[[change]]
+step = 31
+do = ["heat_source.0.at 60 55 4", "vent.0.rate 0.4"]
+[[change]]
+step = 77
+do = ["pour 40 40 40 4 0.9", "carve 30 20 30 5", "heat_source.add_sky 0.002"]
+[[change]]
+step = 120
+do = ["vent.0.off", "heat.gamma 0.1", "heat_source.1.remove"]
 [flow]
 law = "LAW"
 [camera]
