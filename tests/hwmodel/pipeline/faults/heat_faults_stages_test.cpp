@@ -8,6 +8,7 @@
 
 #include "hwmodel/pipeline/faults/planted_stages.h"
 #include "tests/hwmodel/pipeline/model/heat_stages.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -59,8 +60,9 @@ void expect_struck(const Planted& planted) {
   const auto name = std::find_if(all_faults().begin(), all_faults().end(), [&](const FaultInfo& one) {
                       return one.fault == planted.fault;
                     })->name;
-  std::map<std::string, int> struck = strikes(planted, 400);
-  for (const std::string& stage : planted.stages) EXPECT_GE(struck[stage], 3) << name << " in " << stage;
+  std::map<std::string, int> struck = strikes(planted, rounds(400));
+  for (const std::string& stage : planted.stages)
+    EXPECT_GE(struck[stage], rounds(3)) << name << " in " << stage;
   EXPECT_EQ(struck.size(), planted.stages.size()) << name;
 }
 

@@ -11,6 +11,7 @@
 
 #include "hwmodel/pipeline/faults/planted_stages.h"
 #include "tests/hwmodel/pipeline/model/stage_run.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 
@@ -37,7 +38,7 @@ template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, int worlds, int steps,
                     int wanted) {
   int struck = 0;
-  for (int world = 0; world < worlds; ++world) {
+  for (int world = 0; world < rounds(worlds); ++world) {
     worlds::Random random(static_cast<std::uint64_t>(world) * 7919 + 3);
     const state::Grid grid{random.between(1, 20), random.between(1, 8), random.between(1, 6)};
     Design design{freezing_parameters(random, law, grid), {grid, random.any({1, 2, 4, 8, 16})}};
@@ -74,8 +75,8 @@ void expect_strikes(rule::Law law, step::Phase phase, Fault fault, Make&& make, 
     }
     struck += plan.struck() ? 1 : 0;
   }
-  EXPECT_GE(struck, wanted);
-  std::printf("             struck in %d of %d worlds\n", struck, worlds);
+  EXPECT_GE(struck, rounds(wanted));
+  std::printf("             struck in %d of %d worlds\n", struck, rounds(worlds));
 }
 
 }  // namespace voxmelt::hwmodel

@@ -8,6 +8,7 @@
 
 #include "hwmodel/pipeline/faults/planted_stages.h"
 #include "tests/hwmodel/pipeline/model/viscous_worlds.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -38,7 +39,7 @@ At first_difference(const Shape& shape, const state::Volume& expected, const sta
 // Plants `fault` in one fresh world after another, from a random step on.
 void expect_found(Fault fault, Phase last, const std::string& stage, bool vaults = false, int wanted = 60) {
   int strikes = 0, later = 0, hot = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(400)); ++seed) {
     worlds::Random random(seed * 7919 + 3);
     const state::Grid grid = small_grid(random);
     const int lanes = random.any({1, 2, 4, 8, 16});
@@ -87,9 +88,9 @@ void expect_found(Fault fault, Phase last, const std::string& stage, bool vaults
       });
     }
   }
-  EXPECT_GT(strikes, wanted);
-  EXPECT_GT(later, wanted / 3);
-  EXPECT_GT(hot, wanted / 3);
+  EXPECT_GT(strikes, rounds(wanted));
+  EXPECT_GT(later, rounds(wanted) / 3);
+  EXPECT_GT(hot, rounds(wanted) / 3);
 }
 
 // A damaged settling gives no number that the stage behind it cannot hold.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/hwmodel/pipeline/faults/strike_run.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -95,7 +96,8 @@ bool same_until_struck(std::uint64_t seed, state::Grid grid, int steps, Fault fa
 }
 
 TEST(FallStages, ViscousFallIsTheReferences) {
-  for (std::uint64_t seed = 0; seed < 400 && !testing::Test::HasFailure(); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(400)) && !testing::Test::HasFailure();
+       ++seed) {
     worlds::Random random(seed);
     same_until_struck(seed, {random.between(1, 18), random.between(1, 14), random.between(1, 6)}, 3,
                       Fault::none);
@@ -115,12 +117,13 @@ TEST(FallStages, FaultsStrikeWhereTheySay) {
   for (const Fault fault : {Fault::gravity_one_more, Fault::gravity_wall_missed, Fault::gravity_room,
                             Fault::gravity_column_wrap, Fault::gravity_mix, Fault::gravity_set_falls}) {
     int struck = 0;
-    for (std::uint64_t seed = 0; seed < 240; ++seed) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(240)); ++seed) {
       worlds::Random random(seed);
       struck += same_until_struck(seed, {random.between(1, 18), random.between(1, 9), random.between(1, 6)},
                                   3, fault);
     }
-    EXPECT_GE(struck, fault == Fault::gravity_set_falls ? 10 : 30) << "fault " << static_cast<int>(fault);
+    EXPECT_GE(struck, rounds(fault == Fault::gravity_set_falls ? 10 : 30))
+        << "fault " << static_cast<int>(fault);
   }
 }
 

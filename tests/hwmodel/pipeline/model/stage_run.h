@@ -17,6 +17,7 @@
 #include "tests/hwmodel/pipeline/model/freezing.h"
 #include "tests/hwmodel/pipeline/model/sides.h"
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 
@@ -105,7 +106,7 @@ template <class Make>  // void(const Design&, const StageMaker&, Stages&)
 void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& make, int worlds, int steps,
                    std::uint64_t first_seed = 0) {
   std::int64_t compared = 0, changed = 0;
-  for (int world = 0; world < worlds; ++world) {
+  for (int world = 0; world < rounds(worlds); ++world) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(world);
     worlds::Random random(seed * 104729 + 17);
     const state::Grid grid =
@@ -149,8 +150,8 @@ void expect_phases(rule::Law law, step::Phase first, step::Phase last, Make&& ma
       simulation.end_step();
     }
   }
-  EXPECT_GT(compared, worlds * 20);  // nothing compared proves nothing
-  EXPECT_GT(changed, worlds / 4);
+  EXPECT_GT(compared, rounds(worlds) * 20);  // nothing compared proves nothing
+  EXPECT_GT(changed, rounds(worlds) / 4);
 }
 
 template <class Make>

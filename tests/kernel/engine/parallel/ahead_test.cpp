@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -69,7 +70,7 @@ bool same_whole_steps(const Parameters& parameters, const Volume& start, const s
 class Ahead : public testing::TestWithParam<std::string> {};
 
 TEST_P(Ahead, SameBitsAfterEveryStep) {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+  for (int seed = 0; seed < rounds(150); ++seed) {
     Random random(seed * 7321 + 5);
     const Grid grid = tall_grid(random);
     Parameters parameters = hostile_parameters(random, rule::Law::paper, grid);

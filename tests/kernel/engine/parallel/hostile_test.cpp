@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -34,7 +35,7 @@ class Hostile : public testing::TestWithParam<std::tuple<rule::Law, std::string>
 
 TEST_P(Hostile, SameBitsAfterEveryPhase) {
   const auto& [law, name] = GetParam();
-  for (std::uint64_t seed = 0; seed < 700; ++seed) {
+  for (int seed = 0; seed < rounds(700); ++seed) {
     Random random(seed * 7919 + (law == rule::Law::paper ? 1 : 2));
     const Grid grid = any_grid(random);
     Parameters parameters = hostile_parameters(random, law, grid);

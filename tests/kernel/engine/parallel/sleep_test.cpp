@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -116,7 +117,7 @@ Volume calm_volume(Random& random, const Parameters& p, Grid g) {
 class Calm : public testing::TestWithParam<rule::Law> {};
 
 TEST_P(Calm, SleepersWakeInTime) {
-  for (std::uint64_t seed = 0; seed < 250; ++seed) {
+  for (int seed = 0; seed < rounds(250); ++seed) {
     Random random(seed * 104729 + static_cast<std::uint64_t>(GetParam()));
     const Grid grid = calm_grid(random);
     const Parameters parameters = calm_parameters(random, GetParam(), grid);
@@ -140,7 +141,7 @@ bool awake_near(const step::AwakeTiles& awake, Grid g, int z) {
 // Whoever looks at a run between two steps is told what sleeps.
 TEST_P(Calm, NothingChangesFarFromTilesThatAreToldToBeAwake) {
   int asleep = 0, changed = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (int seed = 0; seed < rounds(120); ++seed) {
     Random random(seed * 7919 + static_cast<std::uint64_t>(GetParam()));
     const Grid grid{random.between(3, 66), random.between(3, 9), random.between(17, 40)};
     Parameters parameters = calm_parameters(random, GetParam(), grid);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::parallel {
 namespace {
@@ -37,7 +38,7 @@ Parameters conducting(Random& random, int neighbours, bool materials) {
 TEST(Sleep, HeatThatHasJustComeMovesOn) {
   for (const bool materials : {true, false})
     for (const int neighbours : {18, 26})
-      for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      for (int seed = 0; seed < rounds(60); ++seed) {
         Random random(seed);
         const Parameters p = conducting(random, neighbours, materials);
         Volume start({130, 5, 4});

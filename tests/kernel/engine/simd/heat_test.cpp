@@ -13,6 +13,7 @@
 #include "kernel/automaton/rule/heat.h"
 #include "kernel/engine/scalar/reference.h"
 #include "tests/kernel/engine/simd/heat_compare.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::simd {
 namespace {
@@ -218,22 +219,22 @@ World sleepy_world(Random& random, Grid grid) {
 TEST_P(Heat, SleepChangesNothing) {
   Random random(13);
   double slept = 0;
-  constexpr int kCases = 200;
-  for (int i = 0; i < kCases; ++i) {
+  const int cases = rounds(200);
+  for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE(i);
     const Grid grid{random.any({65, 128, 190}), random.any({6, 17}), random.any({4, 9})};
     slept += run_both(GetParam().set, sleepy_world(random, grid), random, true);
     ASSERT_FALSE(HasFatalFailure());
   }
-  EXPECT_GT(slept / kCases, 0.5) << "of the tiles should sleep";
+  EXPECT_GT(slept / cases, 0.5) << "of the tiles should sleep";
 }
 
 // The same holds if all is matter, of one heat but for a few cells.
 TEST_P(Heat, SleepChangesNothingInDenseMatter) {
   Random random(15);
   double slept = 0;
-  constexpr int kCases = 40;
-  for (int i = 0; i < kCases; ++i) {
+  const int cases = rounds(40);
+  for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE(i);
     const Grid grid{64 * random.between(1, 10), random.any({7, 10, 18}), random.any({2, 4})};
     World world = sleepy_world(random, grid);
@@ -260,7 +261,7 @@ TEST_P(Heat, SleepChangesNothingInDenseMatter) {
     slept += run_both(GetParam().set, std::move(world), random, true);
     ASSERT_FALSE(HasFatalFailure());
   }
-  EXPECT_GT(slept / kCases, 0.2) << "of the tiles should sleep";
+  EXPECT_GT(slept / cases, 0.2) << "of the tiles should sleep";
 }
 
 // Conduction runs in tiles chosen at random, each row's side by side. It is right whatever the tiles beside
