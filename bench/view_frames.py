@@ -79,7 +79,8 @@ def in_browser(server):
             new MutationObserver(() => ++window.shown).observe(document.getElementById('picture'),
                                                                {attributes: true, attributeFilter: ['data-step']});""")
         shown = lambda: driver.execute_script("return window.shown")
-        while shown() == 0:
+        seen = "return document.getElementById('picture').dataset.step"
+        while not driver.execute_script(seen):  # the first picture may have come before anyone looked
             time.sleep(0.1)
         driver.execute_script("document.getElementById('play').click()")
         time.sleep(1.5)
@@ -91,7 +92,7 @@ def in_browser(server):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word != "--browser"]
+    browsed, words = "--browser" in sys.argv, [word for word in sys.argv[1:] if word != "--browser"]
     program = str(Path(words[0] if words else ROOT / "build/release/app/voxmelt").resolve())
     drawn, sent = [], []
     for scene in words[1:] or SCENES:
@@ -109,7 +110,7 @@ def main():
                 page.rest()
                 rate, size, ms, busy = max((played(server, page) for _ in range(PLAYS)), key=lambda play: play[0])
             parts = ", ".join(f"{ms[part]:.1f}" for part in ("step", "draw", "encode"))
-            shown = f", {in_browser(server):.1f} in Chromium" if "--browser" in sys.argv else ""
+            shown = f", {in_browser(server):.1f} in Chromium" if browsed else ""
             drawn.append(f"| `{scene}` | {first} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |")
             sent.append(f"| `{scene}` | {first} | {least[0]:.2f} | {least[1]:.2f} | {least[2]:.2f} | {least[3] / 1000:.1f} | {least[4]:.1%} |")
     print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n|---|--:|--:|--:|--:|--:|")
