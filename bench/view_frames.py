@@ -4,7 +4,8 @@
 A page without a browser plays each scene from the middle of its melting, at 640 x 480 and three steps a frame, and takes every
 frame. So this is what the server alone gives, on the exact painter. Each row is the best of three seconds-long plays. With
 --browser a headless Chromium shows the page on the same processors: what is left is what a user sees. The second table is of
-pages that draw by themselves, from textures: what the server does for a frame, and what it sends."""
+pages that draw by themselves, from textures: what the server does for a frame, and what it sends. What --browser prints of
+all scenes stays in bench/performance_view.md."""
 import os
 import sys
 import time
@@ -111,12 +112,15 @@ def main():
                 rate, size, ms, busy = max((played(server, page) for _ in range(PLAYS)), key=lambda play: play[0])
             parts = ", ".join(f"{ms[part]:.1f}" for part in ("step", "draw", "encode"))
             shown = f", {in_browser(server):.1f} in Chromium" if browsed else ""
-            drawn.append(f"| `{scene}` | {first} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |")
-            sent.append(f"| `{scene}` | {first} | {least[0]:.2f} | {least[1]:.2f} | {least[2]:.2f} | {least[3] / 1000:.1f} | {least[4]:.1%} |")
-    print("| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n|---|--:|--:|--:|--:|--:|")
-    print("\n".join(drawn))
-    print("\n| scene | from step | step, ms | update, ms | pack, ms | KB a frame | of all textures, unpacked |\n|---|--:|--:|--:|--:|--:|--:|")
-    print("\n".join(sent))
+            drawn.append(f"| `{scene}` | {first} | {rate:.1f}{shown} | {size / 1000:.1f} | {parts} | {busy:.2f} |\n")
+            sent.append(f"| `{scene}` | {first} | {least[0]:.2f} | {least[1]:.2f} | {least[2]:.2f} | {least[3] / 1000:.1f} | {least[4]:.1%} |\n")
+    tables = "| scene | from step | frames a second | KB a frame | ms a frame: step, draw, encode | processors busy |\n"
+    tables += "|---|--:|--:|--:|--:|--:|\n" + "".join(drawn)
+    tables += "\n| scene | from step | step, ms | update, ms | pack, ms | KB a frame | of all textures, unpacked |\n"
+    tables += "|---|--:|--:|--:|--:|--:|--:|\n" + "".join(sent)
+    print(tables, end="")
+    if browsed and not words[1:]:
+        (ROOT / "bench" / "performance_view.md").write_text(tables)
 
 
 main()

@@ -4,7 +4,7 @@
 #   bench/write_performance.sh [VOXMELT] [further options of voxmelt bench]
 # The text of a page comes from its template in this folder. A line {{name}} becomes the table of that
 # name. What other programs measure comes from the file bench/performance_<name>.md, which
-# bench/feature_cost.py and bench/compare_vtk.py write. WRITE_TO names another folder than docs.
+# bench/feature_cost.py, bench/compare_vtk.py and bench/view_frames.py write. WRITE_TO names another folder than docs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
