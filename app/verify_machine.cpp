@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/film.h"
 #include "app/interrupt.h"
 #include "app/print.h"
 #include "app/run_ahead.h"
