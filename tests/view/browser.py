@@ -12,7 +12,7 @@ try:
     from selenium.webdriver.common.by import By
 except ImportError:
     webdriver = None
-from page import Server
+from page import Page, Server
 
 PROGRAM = str(Path(sys.argv[1]).resolve())
 SHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 and sys.argv[2] else None
@@ -51,7 +51,7 @@ class InBrowser(unittest.TestCase):
         self.addCleanup(self.driver.quit)
         self.driver.set_script_timeout(300)
         self.driver.get(self.server.url)
-        self.wait(lambda: self.data("digest"))
+        self.settle()
 
     def wait(self, what, seconds=20):
         end = time.monotonic() + seconds
@@ -59,6 +59,21 @@ class InBrowser(unittest.TestCase):
             self.assertLess(time.monotonic(), end, "it does not come")
             time.sleep(0.05)
         return found
+
+    def settle(self):
+        """A page may get a picture before the server knows how large its window is."""
+        seen = []
+        self.wait(lambda: self.data("digest") and (seen.append(self.pixels()) or seen[-2:-1] == seen[-1:] or time.sleep(0.3)), 60)
+
+    def with_hands(self):
+        """A page of its own that has the hands: the one in the browser gives them, and looks on."""
+        page = Page(self.server)
+        page.send("hands")
+        self.wait(lambda: self.driver.execute_script("return !document.getElementById('hands').hidden"))
+        self.driver.execute_script("document.getElementById('hands-button').click()")
+        while not page.text("hands")["yours"]:
+            pass
+        return page
 
     def data(self, name):
         return self.driver.execute_script(f"return document.getElementById('picture').dataset.{name}")

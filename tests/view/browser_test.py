@@ -110,7 +110,7 @@ class BrowserTest(InBrowser):
         self.wait(lambda: power() == 0)
         self.shot("source_off")
         self.driver.refresh()  # a page that is loaded again still knows the power
-        self.wait(lambda: self.data("digest"))
+        self.settle()
         press("heat_source.0.power")
         self.wait(lambda: power() == first["power"])
         choose = lambda kind: self.driver.execute_script(
@@ -217,10 +217,7 @@ class BrowserTest(InBrowser):
         self.changes_picture(lambda: move(0))
         self.assertEqual(self.colour(0.5, 0.5), [232, 236, 240], "all is cut off")
         # Another page may show something else.
-        with Page(self.server) as page:
-            page.send("hands")
-            self.wait(lambda: self.element("hands").is_displayed())
-            self.element("hands-button").click()
+        with self.with_hands() as page:
             page.send("cells sleep y 9")
             self.wait(lambda: shown() == ["sleep", "y"] and self.element("cut-at").get_attribute("value") == "9")
             hand("f")

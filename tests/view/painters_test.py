@@ -59,15 +59,16 @@ class PaintersTest(InBrowser):
         self.server = Server(browser.PROGRAM, scene, "--threads", 2)
         self.addCleanup(self.server.__exit__)
         self.driver.get(self.server.url)
-        self.wait(lambda: self.data("digest"), 60)
+        self.settle()
 
     def test_it_draws_the_same_picture(self):
         views = 0
         for scene, (steps, cameras) in VIEWS.items():
             with self.subTest(scene):
                 self.go_to(scene)
-                with Page(self.server) as self.page:
-                    world, home = self.page.text("world"), self.page.rest()[0]["camera"]["azimuth"]
+                with Page(self.server) as looking:
+                    world, home = looking.text("world"), looking.rest()[0]["camera"]["azimuth"]
+                with self.with_hands() as self.page:
                     self.page.send("speed 100")
                     self.page.send(f"step {steps}")
                     self.page.rest(steps)
@@ -93,7 +94,7 @@ class PaintersTest(InBrowser):
         self.open("cello", 720, 340, webgl=True)
         self.pressed("painter")
         self.wait(lambda: self.own("step") == "0", 120)
-        with Page(self.server) as page:
+        with self.with_hands() as page:
             page.send("exact 0")
             for step in range(20, 201, 20):
                 page.send("step 20")
@@ -139,7 +140,7 @@ class PaintersTest(InBrowser):
         key("t")
         self.wait(lambda: self.own("fine") == "1", 60)
         self.assertTrue(shown("textures"))
-        with Page(self.server) as page:
+        with self.with_hands() as page:
             page.send("step 3")
             page.rest(3)
             self.wait(lambda: self.own("step") == "3", 60)
