@@ -78,7 +78,7 @@ bool Controller::refresh(std::int64_t now, std::int64_t& next) {
     std::int64_t from = bus_free_[0];
     for (const BankState& bank : rank.banks()) {
       if (!open) from = std::max(from, bank.activate);
-      if (bank.open >= 0) from = std::max(from, bank.precharge);
+      if (bank.open >= 0) from = std::max(from, rank.may_precharge(bank));
     }
     if (now < from) {
       next = std::min(next, from);
@@ -87,7 +87,7 @@ bool Controller::refresh(std::int64_t now, std::int64_t& next) {
     Location at;
     at.rank = r;
     if (open) {
-      for (BankState& bank : rank.banks()) RankState::precharge(bank, now, parameters_.rp_all);
+      for (BankState& bank : rank.banks()) rank.precharge(bank, now, parameters_.rp_all, parameters_);
       tell(now, Command::Kind::precharge_all, at);
       bus_free_[0] = now + parameters_.pre_slots;
       ++counts_.precharges;
@@ -195,13 +195,14 @@ bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::i
     if ((hit & bit) != 0 && !(starving && i == 0)) continue;
     const bool close = bank.open >= 0;
     const std::int64_t from =
-        std::max(bus_free_[0], close ? bank.precharge : rank.may_activate(bank, entry.at.group, parameters_));
+        std::max(bus_free_[0],
+                 close ? rank.may_precharge(bank) : rank.may_activate(bank, entry.at.group, parameters_));
     if (now < from) {
       next = std::min(next, from);
       continue;
     }
     if (close) {
-      RankState::precharge(bank, now, parameters_.rp);
+      rank.precharge(bank, now, parameters_.rp, parameters_);
       entry.precharged = true;
       ++counts_.precharges;
     } else {

@@ -11,7 +11,8 @@ namespace voxmelt::hwmodel::memory {
 
 struct Parameters {
   std::string name, title;
-  int mhz = 0;  // the memory's clock; data move at both edges
+  int mhz = 0;        // the memory's clock, in which all cycles below count
+  int data_rate = 2;  // transfers on a wire in a cycle: 2 at both edges; clocks for data alone make 4 or 8
 
   // Each is a power of 2. Columns of a row are as wide as the channel.
   int channels = 1, ranks = 1, groups = 1, banks = 1;  // `banks` counts those of a group
@@ -24,11 +25,13 @@ struct Parameters {
   int rp = 0, rp_all = 0;             // PRE to ACT, for one bank and for all
   int ras = 0, rc = 0;                // ACT to PRE, and to ACT of the same bank
   int ccd_s = 0, ccd_l = 0;           // RD to RD, WR to WR: in another group, in the same one
+  int ccd_l_write = 0;                // WR to WR in the same group
   int rrd_s = 0, rrd_l = 0;           // ACT to ACT of another bank: likewise
   int faw = 0;                        // at most four ACT in so many cycles
   int wr = 0;                         // end of written data to PRE
   int wtr_s = 0, wtr_l = 0;           // end of written data to RD
   int rtp = 0;                        // RD to PRE
+  int ppd = 0;                        // PRE to PRE of any banks of a rank
   int read_to_write = 0;              // cycles without data between read and written data
   int rank_switch = 0;                // cycles without data between those of two ranks
   int refi = 0, rfc = 0;              // between two REF; REF to the next command
@@ -36,14 +39,14 @@ struct Parameters {
   bool two_buses = false;    // column commands have a bus of their own
   int interface_cycles = 0;  // further cycles of a read on its way through controller and pins
 
-  int beats() const { return transfers / 2; }  // data cycles of one column command
+  int beats() const { return transfers / data_rate; }  // data cycles of one column command
   int column_bytes() const { return width_bits / 8 * transfers; }
   int columns_of_request() const { return kBurst / column_bytes(); }  // column commands
   int banks_of_rank() const { return groups * banks; }
   std::int64_t row_bytes() const { return std::int64_t{columns} * (width_bits / 8); }
   std::int64_t bytes() const { return row_bytes() * rows * banks_of_rank() * ranks * channels; }
-  // Returns the peak rate in 10^6 bytes a second: 64 bits at 1200 MHz give 19200.
-  std::int64_t peak() const { return std::int64_t{mhz} * 2 * (width_bits / 8) * channels; }
+  // Returns the peak rate in 10^6 bytes a second: 64 bits at both edges of 1200 MHz give 19200.
+  std::int64_t peak() const { return std::int64_t{mhz} * data_rate * width_bits / 8 * channels; }
 };
 
 // Holds what the controller may choose.

@@ -44,9 +44,13 @@ class RankState {
     four_[oldest_] = now;
     oldest_ = (oldest_ + 1) % four_.size();
   }
-  static void precharge(BankState& bank, std::int64_t now, int cycles) {
+  std::int64_t may_precharge(const BankState& bank) const {
+    return std::max(bank.precharge, next_precharge_);
+  }
+  void precharge(BankState& bank, std::int64_t now, int cycles, const Parameters& p) {
     bank.open = -1;
     bank.activate = std::max(bank.activate, now + cycles);
+    next_precharge_ = now + p.ppd;
   }
   void refresh(std::int64_t now, const Parameters& p) {
     for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
@@ -60,6 +64,7 @@ class RankState {
   std::vector<std::int64_t> groups_;  // first cycle in which a bank of each may be activated
   std::vector<std::int64_t> four_;    // cycles of the last four ACT
   std::size_t oldest_ = 0;
+  std::int64_t next_precharge_ = kLongAgo;
   int banks_of_group_;
 };
 
@@ -78,7 +83,8 @@ class ColumnRules {
       for (int g = 0; g < groups_; ++g) {
         const bool same_rank = r == rank, same_group = same_rank && g == group;
         const int apart = p.beats() + p.rank_switch;
-        const int same_kind = same_rank ? (same_group ? p.ccd_l : p.ccd_s) : apart;
+        const int in_group = write ? p.ccd_l_write : p.ccd_l;
+        const int same_kind = same_rank ? (same_group ? in_group : p.ccd_s) : apart;
         int other_kind = 0;
         if (!write)
           other_kind = read_data - write_data + p.beats() +

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kMostBanks = 64;  // banks of a channel: the controller keeps a bit of each
 
-int power_of_two(scene::Reader& from, const char* key, int high) {
-  const int value = from.integer(key, 1, high);
+int power_of_two(scene::Reader& from, const char* key, int high, std::optional<int> missing = {}) {
+  const int value = from.integer(key, 1, high, missing);
   if (!std::has_single_bit<unsigned>(value))
     from.fail(key, " = " + std::to_string(value) + " is not a power of 2");
   return value;
@@ -23,6 +23,7 @@ int power_of_two(scene::Reader& from, const char* key, int high) {
 
 // All keys of [memory], which are so short that each looks like a misspelling of others.
 constexpr const char* kKeys[] = {"mhz",
+                                 "data_rate",
                                  "channels",
                                  "ranks",
                                  "groups",
@@ -42,6 +43,7 @@ constexpr const char* kKeys[] = {"mhz",
                                  "rc",
                                  "ccd_s",
                                  "ccd_l",
+                                 "ccd_l_write",
                                  "rrd_s",
                                  "rrd_l",
                                  "faw",
@@ -49,6 +51,7 @@ constexpr const char* kKeys[] = {"mhz",
                                  "wtr_s",
                                  "wtr_l",
                                  "rtp",
+                                 "ppd",
                                  "read_to_write",
                                  "rank_switch",
                                  "rfc",
@@ -71,8 +74,9 @@ void read_shape(scene::Reader& from, memory::Parameters& p) {
   p.transfers = power_of_two(from, "transfers", 64);
   if (p.ranks * p.groups * p.banks > kMostBanks)
     from.fail("banks", ": a channel has more than " + std::to_string(kMostBanks) + " banks");
-  if (p.width_bits < 8 || p.transfers < 2 || p.column_bytes() > memory::kBurst)
-    from.fail("transfers", ": a burst must have whole bytes, and 64 of them at most");
+  p.data_rate = power_of_two(from, "data_rate", 16, 2);
+  if (p.width_bits < 8 || p.transfers < p.data_rate || p.column_bytes() > memory::kBurst)
+    from.fail("transfers", ": a burst must have whole bytes, and 64 of them at most, and take whole cycles");
   if (p.row_bytes() < memory::kBurst) from.fail("columns", ": a row must have 64 bytes");
 }
 
@@ -90,6 +94,7 @@ void read_cycles(scene::Reader& from, memory::Parameters& p) {
   p.rc = cycles("rc", p.ras, kMost);
   p.ccd_s = cycles("ccd_s", p.beats(), kMost);
   p.ccd_l = cycles("ccd_l", p.ccd_s, kMost);
+  p.ccd_l_write = from.integer("ccd_l_write", p.ccd_s, kMost, p.ccd_l);
   p.rrd_s = cycles("rrd_s", 1, kMost);
   p.rrd_l = cycles("rrd_l", p.rrd_s, kMost);
   p.faw = cycles("faw", 1, kMost);
@@ -97,6 +102,7 @@ void read_cycles(scene::Reader& from, memory::Parameters& p) {
   p.wtr_s = cycles("wtr_s", 1, kMost);
   p.wtr_l = cycles("wtr_l", p.wtr_s, kMost);
   p.rtp = cycles("rtp", 1, kMost);
+  p.ppd = from.integer("ppd", 0, kMost, 0);
   p.read_to_write = cycles("read_to_write", 0, kMost);
   p.rank_switch = cycles("rank_switch", 0, kMost);
   // A refresh must leave time for requests.

@@ -77,12 +77,14 @@ void TimingChecker::issued(const Command& c) {
       break;
     case Kind::precharge: {
       Bank& bank = bank_of(rank, c);
+      check_distance(rank, c);
       check_precharge(bank, c);
       bank.open = bank.closed_with_all = false;
       bank.precharge = c.cycle;
       break;
     }
     case Kind::precharge_all:
+      check_distance(rank, c);
       for (Bank& bank : rank.banks) {
         if (bank.open) check_precharge(bank, c);
         bank.open = false;
@@ -128,7 +130,14 @@ void TimingChecker::check_activate(Rank& rank, const Command& c) {
 void TimingChecker::check_precharge(const Bank& bank, const Command& c) {
   at_least("tRAS", bank.activate, sheet_.ras, c);
   at_least("tRTP", bank.read, sheet_.rtp, c);
-  at_least("tWR", bank.write, sheet_.cwl + sheet_.write_more + sheet_.transfers / 2 + sheet_.wr, c);
+  at_least("tWR", bank.write,
+           sheet_.cwl + sheet_.write_more + sheet_.transfers / sheet_.data_rate + sheet_.wr, c);
+}
+
+// Looks back to the last command that closed a bank, of any bank of the rank.
+void TimingChecker::check_distance(Rank& rank, const Command& c) {
+  at_least("tPPD", rank.precharge, sheet_.ppd, c);
+  rank.precharge = c.cycle;
 }
 
 void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c) {
@@ -141,11 +150,14 @@ void TimingChecker::check_column(Channel& channel, Rank& rank, const Command& c)
   for (int g = 0; g < std::ssize(rank.groups); ++g) {
     const Group& group = rank.groups[g];
     const bool same = g == c.group;
-    at_least(same ? "tCCD_L" : "tCCD_S", read ? group.read : group.write, same ? sheet_.ccd_l : sheet_.ccd_s,
-             c);
+    const int same_group = read ? sheet_.ccd_l : sheet_.ccd_l_write;
+    at_least(!same  ? "tCCD_S"
+             : read ? "tCCD_L"
+                    : "tCCD_L_WR",
+             read ? group.read : group.write, same ? same_group : sheet_.ccd_s, c);
     if (!read) continue;
     // The time counts from the end of the written data.
-    const int data = sheet_.cwl + sheet_.write_more + sheet_.transfers / 2;
+    const int data = sheet_.cwl + sheet_.write_more + sheet_.transfers / sheet_.data_rate;
     at_least(same ? "tWTR_L" : "tWTR_S", group.write, data + (same ? sheet_.wtr_l : sheet_.wtr_s), c);
   }
   check_data(channel, c);
@@ -166,7 +178,7 @@ void TimingChecker::check_data(Channel& channel, const Command& c) {
     if (channel.data_of_rank != c.rank)
       must("rank switch", begin - channel.data_until >= sheet_.rank_switch, c);
   }
-  channel.data_until = begin + sheet_.transfers / 2;
+  channel.data_until = begin + sheet_.transfers / sheet_.data_rate;
   channel.data_of_write = write;
   channel.data_of_rank = c.rank;
 }

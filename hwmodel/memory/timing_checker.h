@@ -41,6 +41,7 @@ class TimingChecker final : public CommandListener {
     std::vector<Bank> banks;
     std::vector<Group> groups;
     std::array<std::int64_t, 4> activates{kNever, kNever, kNever, kNever};  // the newest is first
+    std::int64_t precharge = kNever;                                        // of any bank
     std::int64_t refresh = kNever, refreshes = 0;
   };
   struct Channel {
@@ -56,6 +57,7 @@ class TimingChecker final : public CommandListener {
   void check_bus(Channel& channel, const Command& command);
   void check_activate(Rank& rank, const Command& command);
   void check_precharge(const Bank& bank, const Command& command);
+  void check_distance(Rank& rank, const Command& command);
   void check_column(Channel& channel, Rank& rank, const Command& command);
   void check_data(Channel& channel, const Command& command);
   void check_refresh(Rank& rank, const Command& command);

@@ -14,6 +14,11 @@
 namespace voxmelt::hwmodel::memory {
 
 inline Parameters sheet(const std::string& name) { return load_memory(name, "test"); }
+inline std::vector<Parameters> all_sheets() {
+  std::vector<Parameters> all;
+  for (const MemoryFile& file : memory_files()) all.push_back(sheet(file.name));
+  return all;
+}
 inline Parameters two_ranks() {
   Parameters p = sheet("ddr4-2400");
   p.ranks = 2;

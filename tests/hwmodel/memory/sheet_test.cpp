@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -55,7 +56,25 @@ TEST(MemoryPreset, SaysWhatTheSheetSays) {
   const memory::Parameters lpddr4 = load_memory("lpddr4-3200", "test");
   EXPECT_EQ(lpddr4.peak(), 25600);
   EXPECT_EQ(lpddr4.bytes(), std::int64_t{2} << 30);
-  EXPECT_EQ(memory_files().size(), 3u);
+  EXPECT_EQ(lpddr4.ppd, 4);
+  EXPECT_EQ(ddr4.ppd, 0) << "the key may be missing";
+  EXPECT_EQ(ddr4.ccd_l_write, ddr4.ccd_l) << "likewise";
+  EXPECT_EQ(ddr4.beats(), 4);
+}
+
+// The peaks are those that the kinds are sold with: transfers on a pin, times pins.
+TEST(MemoryPreset, PeaksAreThoseOfTheKind) {
+  const std::map<std::string, std::int64_t> peaks{
+      {"ddr4-2400", 19200},   {"ddr5-4800", 38400}, {"gddr6", 448000},      {"hbm2", 16000},
+      {"hbm2-stack", 230400}, {"hbm3", 819200},     {"lpddr4-3200", 25600}, {"lpddr5-6400", 51200}};
+  ASSERT_EQ(memory_files().size(), peaks.size());
+  for (const MemoryFile& file : memory_files()) {
+    const memory::Parameters p = load_memory(file.name, "test");
+    EXPECT_EQ(p.peak(), peaks.at(file.name)) << file.name;
+    EXPECT_EQ(p.rc, p.name == "hbm3" ? p.ras + p.rp + 1 : p.ras + p.rp) << file.name;
+    EXPECT_EQ(p.beats(), p.ccd_s) << file.name << ": bursts of other groups follow without a gap";
+    EXPECT_NE(p.title.find("GB/s"), std::string::npos);
+  }
 }
 
 TEST(MemoryPreset, RefusesWhatCannotBe) {
@@ -65,6 +84,10 @@ TEST(MemoryPreset, RefusesWhatCannotBe) {
   EXPECT_NE(complaint("transfers = 8", "transfers = 16").find("64 of them at most"), std::string::npos);
   EXPECT_NE(complaint("columns = 1024", "columns = 4").find("a row must have 64 bytes"), std::string::npos);
   EXPECT_NE(complaint("ccd_s = 4", "ccd_s = 3").find("ccd_s"), std::string::npos);
+  EXPECT_NE(complaint("ccd_s = 4", "data_rate = 4\nccd_s = 1").find("ccd_s"), std::string::npos);
+  EXPECT_EQ(complaint("ccd_s = 4", "data_rate = 4\nccd_s = 2"), "") << "8 transfers in two cycles";
+  EXPECT_NE(complaint("mhz = 1200", "mhz = 1200\ndata_rate = 3").find("power of 2"), std::string::npos);
+  EXPECT_NE(complaint("mhz = 1200", "mhz = 1200\ndata_rate = 16").find("whole cycles"), std::string::npos);
   EXPECT_NE(complaint("refi = 9360", "refi = 500").find("refi"), std::string::npos);
   EXPECT_NE(complaint("cl = 17", "latency = 17").find("cl"), std::string::npos);
   EXPECT_NE(complaint("rtp = 9", "rtp = 9\nrtq = 9").find("rtq"), std::string::npos);
@@ -73,9 +96,10 @@ TEST(MemoryPreset, RefusesWhatCannotBe) {
     load_memory("ddr5", "--set hw.memory=ddr5");
     ADD_FAILURE();
   } catch (const scene::InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "--set hw.memory=ddr5: error: no memory \"ddr5\"; there are fixed, ddr4-2400, hbm2, "
-              "lpddr4-3200, or a file that ends in .toml");
+    EXPECT_EQ(
+        std::string(error.what()),
+        "--set hw.memory=ddr5: error: no memory \"ddr5\"; there are fixed, ddr4-2400, ddr5-4800, gddr6, "
+        "hbm2-stack, hbm2, hbm3, lpddr4-3200, lpddr5-6400, or a file that ends in .toml");
   }
 }
 

@@ -65,7 +65,7 @@ TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
        kFifth,
        126},
       {"tCCD_L", {act(100, kA), act(106, kSameGroup), read(140, kA)}, Kind::read, kSameGroup, 146},
-      {"tCCD_L", {act(100, kA), act(106, kSameGroup), write(140, kA)}, Kind::write, kSameGroup, 146},
+      {"tCCD_L_WR", {act(100, kA), act(106, kSameGroup), write(140, kA)}, Kind::write, kSameGroup, 146},
       {"data bus, tCCD_S",
        {act(100, kA), act(106, kOtherGroup), read(140, kA)},
        Kind::read,
@@ -105,6 +105,57 @@ TEST(TimingChecker, EveryRuleOfTheSheetToTheCycle) {
   longer.rc = 60;
   EXPECT_EQ(verdict(longer, {act(100, kA), pre(139, kA), act(160, kOtherRow)}), "");
   EXPECT_EQ(verdict(longer, {act(100, kA), pre(139, kA), act(159, kOtherRow)}), "tRC");
+}
+
+// LPDDR4 keeps 4 cycles between commands that close banks of a rank (JESD209-4, tPPD). All its banks are in
+// one group. Rows that were opened long ago may be closed at once, but for this.
+TEST(TimingChecker, BanksCloseWithADistance) {
+  constexpr At kFirst{0, 0, 0, 5}, kSecond{0, 0, 1, 5};
+  const std::vector<Command> opened{command(100, Kind::activate, kFirst),
+                                    command(116, Kind::activate, kSecond),
+                                    command(300, Kind::precharge, kFirst)};
+  for (const Kind kind : {Kind::precharge, Kind::precharge_all}) {
+    std::vector<Command> stream = opened;
+    stream.push_back(command(304, kind, kSecond));
+    EXPECT_EQ(verdict(sheet("lpddr4-3200"), stream), "");
+    stream.back().cycle = 303;
+    EXPECT_EQ(verdict(sheet("lpddr4-3200"), stream), "tPPD");
+  }
+  Parameters ranks = sheet("lpddr4-3200");
+  ranks.ranks = 2;
+  EXPECT_EQ(
+      verdict(ranks, {command(100, Kind::activate, kFirst), command(104, Kind::activate, kOtherRank),
+                      command(300, Kind::precharge, kFirst), command(302, Kind::precharge, kOtherRank)}),
+      "")
+      << "other ranks do not matter";
+}
+
+// DDR5 wants 20 ns from write to write in one group (48 cycles at 2400 MHz), but 5 ns from read to read.
+TEST(TimingChecker, WritesOfAGroupMayNeedMoreTimeThanReads) {
+  const std::vector<Command> opened{command(100, Kind::activate, kA),
+                                    command(112, Kind::activate, kSameGroup)};
+  const auto after = [&](Kind kind, std::int64_t cycle) {
+    std::vector<Command> stream = opened;
+    stream.push_back(command(300, kind, kA));
+    stream.push_back(command(cycle, kind, kSameGroup));
+    return verdict(sheet("ddr5-4800"), stream);
+  };
+  EXPECT_EQ(after(Kind::write, 348), "");
+  EXPECT_EQ(after(Kind::write, 347), "tCCD_L_WR");
+  EXPECT_EQ(after(Kind::read, 312), "");
+  EXPECT_EQ(after(Kind::read, 311), "tCCD_L");
+}
+
+// 16 transfers take two cycles of the clock of LPDDR5's commands, at eight in a cycle.
+TEST(TimingChecker, DataMoveAtTheirOwnRate) {
+  constexpr At kOther{0, 1, 0, 5};
+  const std::vector<Command> opened{command(100, Kind::activate, kA), command(104, Kind::activate, kOther),
+                                    command(200, Kind::read, kA)};
+  std::vector<Command> stream = opened;
+  stream.push_back(command(202, Kind::read, kOther));
+  EXPECT_EQ(verdict(sheet("lpddr5-6400"), stream), "");
+  stream.back().cycle = 201;
+  EXPECT_EQ(verdict(sheet("lpddr5-6400"), stream), "data bus, tCCD_S");
 }
 
 TEST(TimingChecker, StatesOfBanks) {
@@ -179,6 +230,14 @@ TEST(TimingChecker, FindsEveryPlantedTimingError) {
     --believed.act_slots;
     EXPECT_TRUE(found(parameters, believed).contains("command bus")) << parameters.name;
   }
+  Parameters believed = lpddr4;
+  --believed.ppd;
+  EXPECT_TRUE(found(lpddr4, believed).contains("tPPD"));
+  const Parameters ddr5 = sheet("ddr5-4800");
+  believed = ddr5;
+  --believed.ccd_l_write;
+  EXPECT_TRUE(found(ddr5, ddr5).empty());
+  EXPECT_TRUE(found(ddr5, believed).contains("tCCD_L_WR"));
 }
 
 }  // namespace
