@@ -116,6 +116,25 @@ void ask_of_first_step(explore::Question& question, const state::Volume& start, 
   question.irradiance = ahead.irradiance();
 }
 
+std::vector<explore::Checked> check_points(const ExploreCommand& command, const explore::Question& question,
+                                           const explore::Swept& swept,
+                                           const std::vector<std::size_t>& points, const state::Volume& start,
+                                           const step::Implementation& fast) {
+  std::vector<explore::Checked> checked;
+  step::Tuning tuning;
+  tuning.threads = thread_count(command.common);
+  for (const std::size_t point : points) {
+    if (!command.common.quiet) {
+      const hwmodel::Configuration& hw = swept.points[point].hw;
+      print_error("verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(), hw.lanes,
+                  hw.cascade);
+    }
+    checked.push_back(
+        check(question, swept, point, command.check_steps, {start, fast, tuning, stop_if_interrupted}));
+  }
+  return checked;
+}
+
 int run_explore(ExploreCommand command) {
   split_sets(command);
   const Common& common = command.common;
@@ -149,19 +168,8 @@ int run_explore(ExploreCommand command) {
                     "a multiple of the lanes, and wider than two halos",
                     axes.tile.value_or(0)));
   const explore::Answer answer = answer_of(question, axes, swept);
-  std::vector<explore::Checked> checked;
-  step::Tuning tuning;
-  tuning.threads = thread_count(common);
-  const std::vector<std::size_t> points = chosen_points(answer, command.points);
-  for (const std::size_t point : points) {
-    if (!common.quiet) {
-      const hwmodel::Configuration& hw = swept.points[point].hw;
-      print_error("verifying {} of {}: {} lanes, {} steps\n", checked.size() + 1, points.size(), hw.lanes,
-                  hw.cascade);
-    }
-    checked.push_back(
-        check(question, swept, point, command.check_steps, {start, fast, tuning, stop_if_interrupted}));
-  }
+  const std::vector<explore::Checked> checked =
+      check_points(command, question, swept, chosen_points(answer, command.points), start, fast);
   const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
   print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
   const std::string json = json_of(explored);
@@ -173,7 +181,8 @@ int run_explore(ExploreCommand command) {
     out->commit();
     if (!common.quiet) print("picture, table and report  {}/\n", seen_from_here(out->place()));
   }
-  const bool good = std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.good; });
+  const bool good =
+      std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.verified(); });
   return good ? kDone : kCheckFailed;
 }
 
@@ -187,7 +196,7 @@ void add_explore(CommandLine& program) {
       .required();
   command
       .option("--memory", options->memory,
-              "ddr4-2400, hbm2, lpddr4-3200, a TOML file, or none: it always answers")
+              "a memory by name (`voxmelt list memories`), a TOML file, or none: it always answers")
       .shows_default();
   command.option("--steps", options->steps, "steps of the run whose time is predicted")
       .within(1u, 1000000u)

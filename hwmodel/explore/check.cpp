@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/timing.h"
 #include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/check/falling.h"
@@ -55,6 +56,9 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   checked.on_memory = report.cycles;
   checked.cycles =
       question.memory ? cycles_without_waits(question, point.hw, checked.steps, input) : report.cycles;
+  if (question.memory) checked.allowed = allowed_error(checked.on_memory, *question.memory, point.clock_mhz);
+  checked.speed = speed_of(question, {checked.cycles, checked.on_memory, time.steps}, point.clock_mhz);
+  checked.predicted_speed = speed_of(question, time, point.clock_mhz);
   return checked;
 }
 

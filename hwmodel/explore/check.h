@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 
@@ -20,7 +21,12 @@ struct Checked {
   std::int64_t compared_cells = 0;
   std::int64_t cycles = 0, predicted = 0;        // while the memory always answers
   std::int64_t on_memory = 0, predicted_on = 0;  // with the memory's time
+  std::int64_t allowed = 0;                      // cycles by which predicted_on may be off
+  std::int64_t speed = 0, predicted_speed = 0;   // thousand cell-steps a second, in these steps
   double error() const;                          // relative error of predicted_on
+
+  bool within_bounds() const { return std::abs(predicted_on - on_memory) <= allowed; }
+  bool verified() const { return good && within_bounds(); }
 };
 
 struct CheckInput {

@@ -1,16 +1,22 @@
 #include "hwmodel/explore/dram_time.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "hwmodel/memory/address_map.h"
 #include "hwmodel/memory/ratio.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
+
+// Tells how often a turn of the bus finds a bank in use. Then the first burst of the new side needs the bank
+// of the other side's last burst, for another row.
+struct Meetings {
+  double of_writes = 0, of_reads = 0;
+};
 
 // Counts the cycles that the data bus loses when it turns from reads to writes and back.
 double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
@@ -23,10 +29,6 @@ double turn_cycles(const memory::Parameters& p, const Meetings& meetings) {
   const int for_reads = std::max(0, p.wr + open - p.wtr_s);
   return reads_to_writes + writes_to_reads + for_writes * meetings.of_writes + for_reads * meetings.of_reads;
 }
-
-// Returns the share of the time lost to refresh. In every tREFI the rank closes, is refreshed, and opens a
-// row.
-double refresh_share(const memory::Parameters& p) { return ratio(p.rtp + p.rp_all + p.rfc + p.rcd, p.refi); }
 
 }  // namespace
 
@@ -50,71 +52,67 @@ double meeting(double bursts, const memory::Parameters& p) {
   return (1 - part) * share(whole) + part * share(whole + 1);
 }
 
-double burst_cycles(double reads, double writes, const Meetings& meetings, const memory::Parameters& p,
-                    const memory::Policy& policy) {
-  double cycles = (reads + writes) * p.beats() * p.columns_of_request() / p.channels;
-  if (reads > 0 && writes > 0)
-    cycles += std::min(reads, writes) / p.channels / policy.batch * turn_cycles(p, meetings);
-  return cycles / (1 - refresh_share(p));
-}
-
 namespace {
 
-std::int64_t cycles_at(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
-                       const Placement& placement, const memory::Policy& policy, bool& waits) {
-  // While the first tokens are under way, the memory is only read. Then it is read and written, and at last
-  // it is only written.
+// Says how often the two sides meet. A batch of writes begins when `policy.batch` of them wait. So its first
+// write lies so far behind, and its last one next to nothing. Bursts of the feeds lie in banks at random.
+Meetings meetings_of(const StreamWork& work, const memory::Parameters& p, const Placement& placement,
+                     const memory::Policy& policy) {
   constexpr double kBurstBits = 8.0 * memory::kBurst;
-  const double window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
-  const double alone = std::min(lag, window), both = window - alone, rest = lag - alone;
-  const double reads = ratio(work.read_bits + work.fed_bits, kBurstBits);
-  const double writes = ratio(work.written_bits, kBurstBits);
-  const double clocks = ratio(clock_mhz, p.mhz);
-  // A batch of writes begins when `policy.batch` of them wait. So its first write lies so far behind, and its
-  // last one next to nothing. Bursts of the feeds lie in banks at random.
+  const auto window = static_cast<double>(work.cycles - work.lag), lag = static_cast<double>(work.lag);
+  const std::vector<Behind> as_lag{{ratio(work.read_bits, kBurstBits) * lag / window, 1}};
   Meetings meetings;
-  const double state = ratio(work.read_bits, std::max(1.0, kBurstBits * reads));
-  const double lag_bursts = ratio(work.read_bits, kBurstBits) * lag / window;
-  const std::vector<Behind> as_lag{{lag_bursts, 1}};
   for (const Behind& one : placement.behind.empty() ? as_lag : placement.behind) {
-    meetings.of_writes += one.share * meeting(one.bursts + policy.batch, p);
+    meetings.of_writes += one.share * meeting(one.bursts + policy.batch * p.channels, p);
     meetings.of_reads += one.share * meeting(one.bursts, p);
   }
+  const double state = ratio(work.read_bits, std::max<std::int64_t>(1, work.read_bits + work.fed_bits));
   meetings.of_writes = state * meetings.of_writes + (1 - state) / p.banks;
   meetings.of_reads = state * meetings.of_reads + (1 - state) / p.banks;
-  if (!placement.work.columns.empty()) {
-    const double burst = burst_cycles(1, 0, meetings, p, policy), turn = turn_cycles(p, meetings);
-    return cycles_by_columns(
-        placement.work,
-        {clocks * burst, clocks * (burst + turn / p.channels / policy.batch / (1 - refresh_share(p))),
-         clocks * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles)},
-        policy, waits);
-  }
-  const auto segment = [&](double cycles, bool reading, bool writing) {
-    const double share = cycles / window;
-    return std::max(cycles, clocks * burst_cycles(reading ? reads * share : 0, writing ? writes * share : 0,
-                                                  meetings, p, policy));
-  };
-  const double first =
-      clocks * (p.rcd + p.cl + p.read_more + p.beats() * p.columns_of_request() + p.interface_cycles);
-  return std::llround(first + segment(alone, true, false) + segment(both, true, true) + rest +
-                      segment(alone, false, true));
+  return meetings;
+}
+
+double turn_of(const StreamWork& work, const memory::Parameters& p, const Placement& placement,
+               const memory::Policy& policy) {
+  return turn_cycles(p, meetings_of(work, p, placement, policy));
 }
 
 }  // namespace
 
+std::string beyond_bounds(const memory::Parameters& p, int clock_mhz) {
+  std::string beyond;
+  const auto limit = [&](int value, int most, const char* unit) {
+    if (value > most)
+      beyond += fmt::format("{}{} {} (at most {})", beyond.empty() ? "" : ", ", value, unit, most);
+  };
+  limit(p.interface_cycles * 1000 / p.mhz, kMostNanoseconds, "ns through controller and pins");
+  limit(p.channels, kMostChannels, "channels");
+  limit(p.ranks, 1, "ranks");
+  limit(clock_mhz, kMostClock, "MHz");
+  return beyond;
+}
+
+std::int64_t allowed_error(std::int64_t cycles, const memory::Parameters& p, int clock_mhz) {
+  return std::llround(kBound * static_cast<double>(cycles) + bus_times(p, clock_mhz, 0).refresh_stop);
+}
+
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& p, int clock_mhz,
                        const Placement& placement, const memory::Policy& policy) {
+  if (placement.work.columns.empty()) return work.cycles;
   bool waits = true;
-  return cycles_at(work, p, clock_mhz, placement, policy, waits);
+  const double turn = turn_of(work, p, placement, policy);
+  return cycles_by_columns(placement.work, bus_times(p, clock_mhz, turn), policy, waits);
 }
 
 std::vector<std::int64_t> cycles_on(const StreamWork& work, const memory::Parameters& p,
                                     const std::vector<int>& clocks, const Placement& placement) {
-  std::vector<std::int64_t> cycles(clocks.size());
+  std::vector<std::int64_t> cycles(clocks.size(), work.cycles);
+  if (placement.work.columns.empty()) return cycles;
   bool waits = true;
+  const memory::Policy policy;
+  const double turn = turn_of(work, p, placement, policy);
   for (std::size_t i = clocks.size(); i-- > 0;)
-    cycles[i] = cycles_at(work, p, clocks[i], placement, {}, waits);
+    cycles[i] = cycles_by_columns(placement.work, bus_times(p, clocks[i], turn), policy, waits);
   return cycles;
 }
 

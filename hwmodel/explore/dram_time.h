@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "hwmodel/explore/stream_time.h"
 #include "hwmodel/memory/parameters.h"
 #include "hwmodel/pipeline/time/stream_work.h"
 
@@ -15,52 +17,28 @@ namespace voxmelt::hwmodel::explore {
 // but in another row.
 double meeting(double bursts, const memory::Parameters& parameters);
 
-// Tells how often a turn of the bus finds a bank in use. Then the first burst of the new side needs the bank
-// of the other side's last burst, for another row.
-struct Meetings {
-  double of_writes = 0, of_reads = 0;
-};
-
-// Returns the memory's cycles for so many bursts, while reads and writes wait without end.
-double burst_cycles(double reads, double writes, const Meetings& meetings,
-                    const memory::Parameters& parameters, const memory::Policy& policy = {});
-
 // Tells how far the writes of a pass lie behind its reads.
 struct Behind {
   double bursts = 0;
   double share = 1;  // part of the time, 0..1
 };
 
-// Counts the bursts of one column. Columns are uneven in irradiance, and with hw.coded also in the state.
-struct ColumnBursts {
-  double reads = 0, writes = 0;
-};
-struct ColumnWork {
-  // The columns stand in the order of the stream.
-  std::vector<ColumnBursts> columns;
-  double column_cycles = 0, lag = 0;  // cycles of the machine, without waits
-  // `fed` counts the bursts of irradiance that all feeds together fetch in the time of each column, until the
-  // pipeline is empty. A feed asks at once for as much as it has used. At the beginning it fills its buffer
-  // with `fed_first`.
-  std::vector<double> fed{}, fed_first{};
-  bool coded = false;
-};
-// All of these are cycles of the machine.
-struct BusTimes {
-  double read = 0, write = 0;  // a burst on the bus; the writes bear the turns
-  double latency = 0;          // from a read to its data
-};
-// Before the call, `waits` is false if the pipeline is known never to wait after its first column. The
-// function sets it to whether the pipeline waits.
-std::int64_t cycles_by_columns(const ColumnWork& work, const BusTimes& times, const memory::Policy& policy,
-                               bool& waits);
-
-// Describes how the state lies in the memory. For one even stream both lists are empty: the writes then lie
-// as many bursts behind as the lag has.
+// Describes how the state lies in the memory. If `behind` is empty, the writes lie as many bursts behind as
+// the lag has. If there are no columns, nobody knows what lies there, and nothing waits.
 struct Placement {
   std::vector<Behind> behind{};
   ColumnWork work{};
 };
+
+// The closed form is within this share of the simulated cycles, and within the time of one refresh. The test
+// `DrawnMemories` compares it where no number exceeds these.
+inline constexpr double kBound = 0.05;
+inline constexpr int kMostNanoseconds = 400;                // on the way through controller and pins
+inline constexpr int kMostChannels = 32, kMostClock = 500;  // MHz of the machine
+// Says what exceeds them, such as "64 channels (at most 32)". Empty: nothing.
+std::string beyond_bounds(const memory::Parameters& parameters, int clock_mhz);
+// Returns the cycles by which the closed form may be off.
+std::int64_t allowed_error(std::int64_t cycles, const memory::Parameters& parameters, int clock_mhz);
 
 // Returns the cycles of the machine for `work`, which counts as one pass.
 std::int64_t cycles_on(const StreamWork& work, const memory::Parameters& parameters, int clock_mhz,

@@ -27,9 +27,9 @@ std::string csv_of(const Explored& explored) {
     text += fmt::format(",{},{:.6f},{},{}", p.taken.lutram, p.taken.fullest, p.taken.fits() ? 1 : 0,
                         on_front[i] ? 1 : 0);
     const Checked* checked = on_front[i] ? checked_at(explored, i) : nullptr;
-    text += checked == nullptr
-                ? ",0,,\n"
-                : fmt::format(",{},{},{}\n", checked->good ? 1 : 0, checked->cycles, checked->on_memory);
+    text += checked == nullptr ? ",0,,\n"
+                               : fmt::format(",{},{},{}\n", checked->verified() ? 1 : 0, checked->cycles,
+                                             checked->on_memory);
   }
   return text;
 }

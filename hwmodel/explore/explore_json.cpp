@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/explore_report.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -120,17 +121,21 @@ json point_json(const Explored& explored, std::size_t at) {
               {"lutram", p.taken.lutram},
               {"fullest", std::isfinite(p.taken.fullest) ? json(p.taken.fullest) : json()},
               {"fullest_of", kResourceNames[p.taken.most]},
-              {"state", "predicted"}};
+              {"state", state_of(checked_at(explored, at))}};
+  if (explored.question.memory)
+    result["beyond_bounds"] = beyond_bounds(*explored.question.memory, p.clock_mhz);
   const Checked* checked = checked_at(explored, at);
   if (checked == nullptr) return result;
-  result["state"] = checked->good ? "verified" : "differs";
   result["simulated"] = {{"steps", checked->steps},
                          {"compared_cells", checked->compared_cells},
                          {"cycles", checked->cycles},
                          {"predicted_cycles", checked->predicted},
                          {"cycles_on_memory", checked->on_memory},
                          {"predicted_on_memory", checked->predicted_on},
-                         {"error", checked->error()}};
+                         {"cell_steps_per_second", checked->speed * 1000},
+                         {"error", checked->error()},
+                         {"allowed_cycles", checked->allowed},
+                         {"within_bounds", checked->within_bounds()}};
   return result;
 }
 
@@ -191,11 +196,13 @@ std::string json_of(const Explored& explored) {
                       {"rfc", m.rfc},
                       {"refi", m.refi},
                       {"rp_all", m.rp_all},
+                      {"rp", m.rp},
                       {"rtp", m.rtp},
                       {"rcd", m.rcd},
                       {"cl", m.cl},
                       {"wtr_s", m.wtr_s},
-                      {"read_to_write", m.read_to_write}};
+                      {"read_to_write", m.read_to_write},
+                      {"interface_cycles", m.interface_cycles}};
   }
   return result.dump(2) + '\n';
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hwmodel/explore/answer.h"
@@ -26,5 +28,10 @@ std::string json_of(const Explored& explored);
 std::string svg_of(const Explored& explored);
 
 const Checked* checked_at(const Explored& explored, std::size_t point);  // null if only predicted
+// Returns "predicted", or of a simulated design: "verified", "outside" the bounds of the closed form, or
+// "differs" from the software.
+std::string_view state_of(const Checked* checked);
+// Returns thousand cell-steps a second: simulated, or else predicted.
+std::int64_t believed_speed(const Explored& explored, std::size_t point);
 
 }  // namespace voxmelt::hwmodel::explore

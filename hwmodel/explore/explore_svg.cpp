@@ -29,7 +29,7 @@ text { font: 12px system-ui, "Noto Sans", "DejaVu Sans", sans-serif; fill: var(-
 .dots { stroke: var(--dot); stroke-width: 3.2; stroke-linecap: round; fill: none; }
 .front { fill: none; stroke: var(--front); stroke-width: 1.5; opacity: .7; }
 .verified { fill: var(--front); } .predicted { fill: var(--paper); stroke: var(--front); stroke-width: 1.5; }
-.differs { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
+.differs, .outside { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
 </style>
 )";
 
@@ -108,13 +108,12 @@ struct Panel {
       const Point& p = explored.swept.points[i];
       line += (line.empty() ? "M" : " L") + at(p);
       const Checked* checked = checked_at(explored, i);
-      const char* state = checked == nullptr ? "predicted" : checked->good ? "verified" : "differs";
       marks += fmt::format(
           "<circle class='{0}' cx='{1:.1f}' cy='{2:.1f}' r='4'><title>{3} lanes x {4} steps, {5} MHz: "
           "{6:.3f} "
           "Gcell-steps/s, {7} {8}; {0}</title></circle>\n",
-          state, x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz, giga(p), amount_of(p, f),
-          front_name(f));
+          state_of(checked), x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz,
+          static_cast<double>(believed_speed(explored, i)) * 1e-6, amount_of(p, f), front_name(f));
     }
     std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
     if (const auto& front = explored.answer.fronts[f]; !front.empty()) {

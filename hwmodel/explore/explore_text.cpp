@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "hwmodel/explore/dram_time.h"
 #include "hwmodel/explore/explore_report.h"
 #include "hwmodel/memory/ratio.h"
 #include "kernel/scene/text/ascii.h"
@@ -32,6 +34,11 @@ std::string unit_of(Resource r) {
   return name;
 }
 
+// Says what of a design lies beyond the bounds of the closed form.
+std::string beyond_of(const Explored& explored, const Point& p) {
+  return explored.question.memory ? beyond_bounds(*explored.question.memory, p.clock_mhz) : "";
+}
+
 std::string row_of(const Explored& explored, std::size_t at) {
   const Point& p = explored.swept.points[at];
   std::string text =
@@ -42,10 +49,13 @@ std::string row_of(const Explored& explored, std::size_t at) {
   text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
                       percent(p.on_memory - p.cycles, p.on_memory));
   const Checked* checked = checked_at(explored, at);
-  if (checked == nullptr) return text + "predicted\n";
+  if (checked == nullptr)
+    return text + (beyond_of(explored, p).empty() ? "predicted\n" : "predicted, not within its bounds\n");
   if (!checked->good) return text + "DIFFERS\n";
-  return text + fmt::format("verified, {} steps; cycles {:+}, with memory {:+.2f} %\n", checked->steps,
-                            checked->predicted - checked->cycles, 100 * checked->error());
+  return text + fmt::format("{}, {} steps: {}; cycles {:+}, with memory {:+.2f} %\n",
+                            checked->within_bounds() ? "verified" : "NOT WITHIN ITS BOUNDS", checked->steps,
+                            giga(checked->speed), checked->predicted - checked->cycles,
+                            100 * checked->error());
 }
 
 // Says what the smallest design lacks, where none fits.
@@ -83,6 +93,32 @@ std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& expl
   return bounds;
 }
 
+// Names the memory with its peak: some are a part of what is sold.
+std::string memory_of(const Explored& explored) {
+  if (!explored.question.memory) return explored.memory;
+  return fmt::format("{} ({:.1f} GB/s)", explored.memory,
+                     static_cast<double>(explored.question.memory->peak()) * 1e-3);
+}
+
+// Says how fast the best design is, and who says so.
+std::string headline_of(const Explored& explored) {
+  const Point& p = explored.swept.points[*explored.answer.best];
+  const Checked* checked = checked_at(explored, *explored.answer.best);
+  if (checked == nullptr) {
+    const std::string beyond = beyond_of(explored, p);
+    return fmt::format("{} Gcell-steps/s, predicted{}", giga(p.speed),
+                       beyond.empty() ? "" : ", NOT WITHIN ITS BOUNDS: " + beyond);
+  }
+  if (!checked->good) return "but it DIFFERS from the software";
+  const std::string simulated =
+      fmt::format("{} Gcell-steps/s, simulated over {} steps", giga(checked->speed), checked->steps);
+  const std::string predicted =
+      fmt::format("predicted {}, {:+.2f} % cycles", giga(checked->predicted_speed), 100 * checked->error());
+  if (checked->within_bounds()) return fmt::format("{} and verified, {}", simulated, predicted);
+  return fmt::format("{}; the prediction was NOT WITHIN ITS BOUNDS ({}), so another design may be faster",
+                     simulated, predicted);
+}
+
 std::string next_text(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::string text;
@@ -112,6 +148,17 @@ const Checked* checked_at(const Explored& explored, std::size_t point) {
   return nullptr;
 }
 
+std::string_view state_of(const Checked* checked) {
+  if (checked == nullptr) return "predicted";
+  if (!checked->good) return "differs";
+  return checked->within_bounds() ? "verified" : "outside";
+}
+
+std::int64_t believed_speed(const Explored& explored, std::size_t point) {
+  const Checked* checked = checked_at(explored, point);
+  return checked != nullptr && checked->good ? checked->speed : explored.swept.points[point].speed;
+}
+
 std::string sentence_of(const Explored& explored) {
   const Device& device = explored.question.device;
   if (!explored.answer.best)
@@ -119,13 +166,9 @@ std::string sentence_of(const Explored& explored) {
                        explored.scene, device.name, lack_of(explored));
   const Point& p = explored.swept.points[*explored.answer.best];
   const auto bounds = bounds_of(explored);
-  const Checked* checked = checked_at(explored, *explored.answer.best);
-  std::string text = fmt::format(
-      "The best of {} designs for {} on {} with {} has {}: {} Gcell-steps/s, {}; ",
-      explored.swept.points.size(), explored.scene, device.name, explored.memory, design_of(p), giga(p.speed),
-      checked == nullptr ? "predicted"
-      : checked->good    ? fmt::format("verified, {:+.2f} % off", 100 * checked->error())
-                         : "but it DIFFERS from the software");
+  std::string text =
+      fmt::format("The best of {} designs for {} on {} with {} has {}: {}; ", explored.swept.points.size(),
+                  explored.scene, device.name, memory_of(explored), design_of(p), headline_of(explored));
   if (bounds.empty()) return text + "no resource alone bounds it.";
   text += bounds.front().second + " bounds it";
   for (std::size_t i = 1; i < bounds.size(); ++i) text += (i == 1 ? ", then " : ", ") + bounds[i].second;

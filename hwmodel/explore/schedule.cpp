@@ -52,12 +52,25 @@ void add_pass(Train& train, const Design& design, const Configuration& c, const 
   if (pass.uses(StageKind::fall, 0)) train.work.fed_bits += FallStream::bits_of_tile(shape);
 }
 
+// Returns the tiles of the passes that are weighed one by one: of many passes the first, the second and the
+// last. All others take as long as the second.
+std::vector<Pass> weighed(const Train& train, const Shape& shape, ColumnWork& work) {
+  const std::int64_t tiles = shape.tiles(), passes = std::ssize(train.list) / tiles;
+  if (passes <= 3) return train.list;
+  work.repeats = passes - 3;
+  work.pass_columns = static_cast<std::size_t>(tiles * shape.blocks() * shape.grid.z);
+  std::vector<Pass> list(train.list.begin(), train.list.begin() + 2 * tiles);
+  list.insert(list.end(), train.list.end() - tiles, train.list.end());
+  return list;
+}
+
 // Adds the columns of each tile in the order of the stream. Each one is read, and it is written if the tile
 // owns it.
-void add_columns(Train& train, const Design& design, const Configuration& c, const Content& content) {
+void add_columns(Train& train, const std::vector<Pass>& list, const Design& design, const Configuration& c,
+                 const Content& content) {
   const Shape& shape = design.shape;
   const double all = ratio(state_bits(design, false, content, 0, 1), shape.grid.z);
-  for (const Pass& pass : train.list) {
+  for (const Pass& pass : list) {
     const int first = shape.first_block(pass.tile);
     for (int z = 0; z < shape.grid.z; ++z)
       for (int block = first; block < first + shape.blocks(); ++block) {
@@ -106,13 +119,14 @@ void add_feed(ColumnWork& work, const std::vector<double>& used, std::size_t del
 }
 
 // Adds what the feeds of irradiance fetch.
-void add_feeds(Train& train, const Design& design, const Configuration& c, const Content& content) {
+void add_feeds(Train& train, const std::vector<Pass>& list, const Design& design, const Configuration& c,
+               const Content& content) {
   const Shape& shape = design.shape;
   ColumnWork& work = train.placement.work;
   const std::vector<std::size_t> delays = feed_delays(train, design, c);
   for (int t = 0; t < std::ssize(delays); ++t) {
     std::vector<double> used;
-    for (const Pass& pass : train.list) {
+    for (const Pass& pass : list) {
       const int first = shape.first_block(pass.tile);
       for (int z = 0; z < shape.grid.z; ++z)
         for (int block = first; block < first + shape.blocks(); ++block) {
@@ -133,7 +147,6 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
   const auto falls = std::count_if(train.list.begin(), train.list.end(),
                                    [](const Pass& pass) { return pass.uses(StageKind::fall, 0); });
   const bool lit = train.work.fed_bits > falls * FallStream::bits_of_tile(shape);
-  if (!c.coded && !shape.tiled() && !lit) return;  // the stream is even
   // The writes lie as many columns behind as the lag has. Those of tiles lie in the other copy, and a plane
   // there is as wide as the grid.
   const ColumnSlots slots(design, c.coded);
@@ -145,13 +158,15 @@ void end_train(Train& train, const Design& design, const Configuration& c, const
     train.placement.behind = {{bursts - copy, .5}, {bursts + copy, .5}};
   else if (c.coded)
     train.placement.behind = {{bursts, 1}};
-  if (c.coded ? content.coded_columns.empty() : !lit) return;  // plain columns are even
-  add_columns(train, design, c, content);
+  if (c.coded && content.coded_columns.empty()) return;  // nobody knows the state
   ColumnWork& work = train.placement.work;
+  const std::vector<Pass> list = weighed(train, shape, work);
+  add_columns(train, list, design, c, content);
   work.coded = c.coded;
+  work.slot_bursts = static_cast<double>(slots.slot_bursts);
   work.column_cycles = static_cast<double>(c.interval() * shape.column());
   work.lag = static_cast<double>(train.work.lag);
-  if (lit) add_feeds(train, design, c, content);
+  if (lit) add_feeds(train, list, design, c, content);
   const double bursts_of_column = ratio(shape.column() * shape.lanes, CodeLayout::kBurstBits);
   if (falls > 0) add_feed(work, std::vector<double>(work.columns.size(), bursts_of_column), 0);
 }

@@ -1,5 +1,6 @@
 """What `voxmelt explore` computes, once more: times and resources of a design, from the parts and coefficients
 in its report. tests/app/explore_test.py compares the two."""
+import collections
 import itertools
 from math import ceil, floor, inf
 
@@ -85,15 +86,6 @@ def meeting(bursts):
     return (1 - part) * shares[0] + part * shares[1]
 
 
-def dram(reads, writes, meetings):
-    """Cycles of the memory for so many bursts of 64 bytes."""
-    d, turns = DDR4, min(reads, writes) / DDR4["batch"]
-    opened = ((d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]) * meetings[0]
-              + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * meetings[1])
-    bus = (reads + writes) * d["beats"] + turns * (d["rtw"] + d["wtr_s"] + d["cl"] + opened)
-    return bus / (1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"])
-
-
 def distances(report, tiles, columns, slot):
     """Bursts by which the writer is behind the reader: in the other copy, where there are tiles."""
     apart = columns * tiles.blocks / tiles.width * slot
@@ -124,28 +116,79 @@ def feed_bursts(parts, tiles, content, streams, deep, interval, high):
     return fetched, first
 
 
+class Bus:
+    """Reads pass in their order, and between them batches of writes. A refresh stops it."""
+    def __init__(self, clocks, turn):
+        d = DDR4
+        self.burst, self.turn, self.back = clocks * d["beats"], clocks * turn, clocks * (d["cwl"] + d["wtr_s"])
+        self.wrote = False
+        self.every, self.stop = clocks * d["refi"], clocks * (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"])
+        self.free = self.waiting = self.reads = 0
+
+    def after(self, begin, cycles):
+        last = begin // self.every * self.every
+        begin = max(begin, last + self.stop) if last else begin
+        while begin + cycles > last + self.every:
+            last += self.every
+            cycles, begin = cycles - max(0, last - begin), last + self.stop
+        return begin + cycles
+
+    def serve(self, writes, turning):
+        self.free = self.after(self.free, writes * self.burst + turning)
+        self.waiting, self.reads = self.waiting - writes, 0
+
+    def read(self, bursts, ask):
+        if ask > self.free and self.waiting > 8:
+            idle = ask - self.free
+            writes = min(self.waiting, max(idle / self.burst, min(48, self.waiting - 8)))
+            self.serve(writes, (self.turn - min(self.turn - self.back, idle)) * min(1, writes))
+        if self.waiting >= 48 and self.reads >= 48:
+            self.serve(min(48, self.waiting - 8), self.turn)
+        self.free = self.after(max(self.free, ask), bursts * self.burst)
+        self.reads += bursts
+        return self.free
+
+
+def when(marks, bursts):
+    """The cycle in which so many bursts had been used. Marks are (bursts, cycle), the used up ones are dropped."""
+    while len(marks) > 1 and marks[1][0] < bursts:
+        marks.popleft()
+    (b0, c0), (b1, c1) = marks[0], marks[min(1, len(marks) - 1)]
+    return c0 if bursts <= b0 or b1 == b0 else c0 + (c1 - c0) * (bursts - b0) / (b1 - b0)
+
+
 def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
-    """The bus serves column after column, the pipeline takes each when it has come. Irradiance is fed, and what falls."""
-    d, (_, high, deep), tiled = DDR4, report["grid"], len(tiles.read) > 1
-    ratio = hw["clock_mhz"] / d["mhz"]
-    run = 1 - (d["rtp"] + d["rp"] + d["rfc"] + d["rcd"]) / d["refi"]
+    """The bus serves what is asked for, at most 128 bursts ahead, and the pipeline takes it when it has come."""
+    d, (_, high, deep), tiled, coded = DDR4, report["grid"], len(tiles.read) > 1, hw["coded"]
+    clocks = hw["clock_mhz"] / d["mhz"]
     plain = high * parts["lanes"] * parts["cell_bits"] / 512
-    slot = ceil(high * (hw["coded"] + parts["lanes"] * parts["cell_bits"]) / 512)
+    slot = ceil(high * (coded + parts["lanes"] * parts["cell_bits"]) / 512)
     columns, puts = [], []
     for tile, _ in streams:
         for z, block in itertools.product(range(deep), tiles.read[tile]):
-            columns.append(content["coded_columns"][z * tiles.blocks + block] if hw["coded"] else slot if tiled else plain)
+            columns.append(content["coded_columns"][z * tiles.blocks + block] if coded else slot if tiled else plain)
             puts.append(columns[-1] if block in tiles.owned[tile] else 0)
-    taken, behind = interval * high, floor(lag / (interval * high) + .5)
-    aparts = distances(report, tiles, lag / taken, slot) if tiled or hw["coded"] else 2 * (lag / taken * plain,)
+    taken = interval * high
+    behind = floor(lag / taken + .5)
+    aparts = distances(report, tiles, lag / taken, slot) if tiled or coded else 2 * (lag / taken * plain,)
     state = sum(columns) * 512 / (sum(columns) * 512 + sum(fed))
     of_writes, of_reads = (state * sum(meeting(apart + more) for apart in aparts) / 2 + (1 - state) / d["banks"]
                            for more in (d["batch"], 0))
     turn = (d["rtw"] + d["wtr_s"] + d["cl"]
             + (d["rtp"] + d["rp"] + d["rcd"] - (d["cl"] + d["beats"] - d["cwl"]) - d["rtw"]) * of_writes
             + (d["wr"] + d["rp"] + d["rcd"] - d["wtr_s"]) * of_reads)
-    read, write = ratio * d["beats"] / run, ratio * (d["beats"] + turn / d["batch"]) / run
-    latency = ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"]) * (1 + hw["coded"])
+    bus, marks = Bus(clocks, turn), collections.deque([(0, 0)])
+    opening = clocks * (d["rp"] + d["rcd"]) * min(1, slot / 512) if coded else 0
+
+    def latency():
+        """Replies come in order, so all wait for those right behind a write."""
+        held = d["cwl"] + d["beats"] + d["wtr_s"] if bus.wrote else 0
+        return 2.5 + opening + clocks * (d["cl"] + d["beats"] + d["interface"] + held)
+
+    def room(column, bursts):
+        """When the buffer has room for so many bursts more of a column, beside the begins of later ones."""
+        return when(marks, asked + bursts + max(len(begun) - column - 1, 0) - 128)
+
     feeds, first = feed_bursts(parts, tiles, content, streams, deep, interval, high) if fed[0] else ([0] * len(columns), [])
     if fed[1]:
         add_feed(feeds, first, [high * parts["lanes"] / 512] * len(columns), 0)
@@ -156,30 +199,44 @@ def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
         first[:] = [left - one for left, one in zip(first, some)]
         return sum(some)
 
-    done, bus, waiting, asked, freed, written, most = [], 0, 0, 0, 0, 0, 128 + 64
-    ahead = 8 if hw["coded"] else 128
+    def early():
+        """When the begin of the next column may be asked for: 8 of them are under way."""
+        return done[len(begun) - ahead] if len(begun) >= ahead else 0
+
+    def begin(column):
+        begun.append(bus.read(1, max(early(), room(column, 1))) + latency())
+
+    done, begun, asked, written, last, ahead = [], [], 0, 0, 0, 8 if coded else 128
     for c in range(len(columns) + behind):
-        own = columns[c] if c < len(columns) else 0
-        asked += own
-        while freed < min(c, len(columns)) and asked > 128:
-            asked, freed = asked - columns[freed], freed + 1
-        gate = max(done[freed - 1] if freed else 0, done[c - ahead] if c >= ahead else 0)
-        start = max(bus, gate if c < len(columns) else done[-1])
-        while written + behind < c and done[written + behind] <= start:
-            waiting, written = waiting + puts[written], written + 1
-        idle = (start - bus) / write
-        wrote = min(waiting, idle)
-        waiting -= wrote
-        if first:
-            fill((idle - wrote) * write / read / len(first))
-        reads = own + (feeds[c] if c < len(feeds) else 0) + fill(max(own, 1))
-        served = max(min(waiting, reads), waiting - most)
-        waiting -= served
-        bus = start + reads * read + served * write
-        come = max(bus, gate + latency + own * read) + taken / max(own, 1) if c < len(columns) else bus
-        done.append(max((done[-1] if done else 0) + taken, come))
-    waiting += sum(puts[written:])
-    return floor(done[-1] + max(waiting - most, 0) * write + .5)
+        reads = c < len(columns)
+        own, begins = columns[c] if reads else 0, coded and reads
+        before = done[c - ahead] if c >= ahead else 0
+        if begins:
+            while len(begun) <= c:
+                begin(c)
+            limit = max(begun[c], room(c, 1))
+            while len(begun) < min(c + ahead, len(columns)) and early() < limit:
+                begin(c)
+        ready = 0
+        while written + behind < c and done[written + behind] <= last:
+            ready, written = ready + puts[written], written + 1
+        gate, pieces = (last if not reads else begun[c] if coded else before), max(1, ceil(own / 16))
+        for _ in range(pieces):
+            ask = max(gate, room(c, 0))
+            asked += own / pieces
+            ask_last = max(gate, room(c, 0))
+            bus.waiting += ready / pieces
+            bus.wrote = bus.wrote or ready > 0
+            passed = bus.read((own - begins) / pieces + (feeds[c] if c < len(feeds) else 0) / pieces
+                              + fill(max(own / pieces, 1 / pieces)), ask)
+            come = begun[c] if begins and own <= 1 else max(passed, ask_last) + latency() if reads else passed
+            last = max(last + taken / pieces, come)
+            if own:
+                marks.append((marks[-1][0] + own / pieces, last))
+        done.append(last)
+    waiting = bus.waiting + sum(puts[written:])
+    rest = bus.after(max(last, bus.free), (waiting - 192) * bus.burst) if waiting > 192 else last
+    return floor(rest + lag - behind * taken + .5)
 
 
 def times(report, parts, hw):
@@ -199,7 +256,6 @@ def times(report, parts, hw):
 
 def on_memory(report, parts, hw, tiles, streams, cycles):
     """Of a train that takes so many cycles without waiting."""
-    d, (_, high, deep) = DDR4, report["grid"]
     content = content_of(report, parts)
     interval, tiled = 2 if hw["fifo_depth"] == 1 else 1, len(tiles.read) > 1
     window, lit = interval * len(streams) * parts["tokens"], 0
@@ -208,21 +264,7 @@ def on_memory(report, parts, hw, tiles, streams, cycles):
         lit += steps * (of_tile if tiled else content["irradiance_bits"])
     fallen = len(streams) * parts["tokens"] * parts["lanes"] if content["falls"] else 0  # a bit for each cell
     lag, fed = cycles - window, lit + fallen
-    if hw["coded"] or lit:
-        return by_columns(report, parts, content, hw, tiles, streams, (lit, fallen), lag, interval)
-    column = high * parts["lanes"] * parts["cell_bits"]
-    slot = ceil(column / 512)
-    column, alone, ratio = slot * 512 if tiled else column, min(lag, window), hw["clock_mhz"] / d["mhz"]
-    state = sum(len(tiles.read[tile]) for tile, _ in streams) * deep * column
-    reads, writes = (state + fed) / 512, sum(len(tiles.owned[tile]) for tile, _ in streams) * deep * column / 512
-    aparts = distances(report, tiles, lag / (interval * high), slot) if tiled else 2 * (state / 512 * lag / window,)
-    share = state / (state + fed)
-    meetings = [share * sum(meeting(apart + more) for apart in aparts) / 2 + (1 - share) / d["banks"]
-                for more in (d["batch"], 0)]
-    return floor(ratio * (d["rcd"] + d["cl"] + d["beats"] + d["interface"]) + lag - alone
-                 + max(alone, ratio * dram(reads * alone / window, 0, meetings))
-                 + max(window - alone, ratio * dram(reads * (1 - alone / window), writes * (1 - alone / window), meetings))
-                 + max(alone, ratio * dram(0, writes * alone / window, meetings)) + .5)
+    return by_columns(report, parts, content, hw, tiles, streams, (lit, fallen), lag, interval)
 
 
 def pieces(width, of):

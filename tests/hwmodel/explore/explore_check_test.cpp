@@ -1,10 +1,15 @@
 // A point that computes wrong bits is not verified. The file of sized channels describes the machine.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hwmodel/explore/check.h"
+#include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/explore_report.h"
 #include "hwmodel/explore/size_fifos.h"
+#include "hwmodel/memory/sheet.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -34,6 +39,66 @@ TEST(ExploreCheck, APointThatFailsIsNotVerified) {
   const Checked bad = check(question, sweep(question, axes, {}), 0, 0, input);
   EXPECT_FALSE(bad.good);
   EXPECT_NE(bad.difference.find("width"), std::string::npos) << bad.difference;
+}
+
+// A device with a memory is asked, and its best design comes with a simulation that somebody made up.
+std::string said_of(std::int64_t simulated, std::int64_t predicted) {
+  Question question;
+  question.grid = {4, 4, 4};
+  question.parameters.flow.law = rule::Law::paper;
+  question.device = load_device("zu7ev", {});
+  question.memory = load_memory("hbm2", "test");
+  Axes axes;
+  axes.lanes = axes.cascade = axes.substeps = axes.overlap = {1};
+  axes.fifo_depth = {2};
+  axes.coded = {0};
+  axes.clock_mhz = {300};
+  const Swept swept = sweep(question, axes, {});
+  const Answer answer = answer_of(question, axes, swept);
+  Checked checked;
+  checked.steps = 2;
+  checked.good = true;
+  checked.on_memory = simulated;
+  checked.predicted_on = predicted;
+  checked.allowed = allowed_error(simulated, *question.memory, 300);
+  checked.speed = 4252000;
+  checked.predicted_speed = 7992000;
+  const std::vector<Checked> all{checked};
+  const Explored explored{question, axes, swept, answer, all, "a scene", "hbm2"};
+  return text_of(explored) + json_of(explored) + csv_of(explored);
+}
+
+TEST(ExploreCheck, ADesignOutsideTheBoundsIsNotVerified) {
+  const std::string outside = said_of(105528, 56144);
+  EXPECT_NE(
+      outside.find("4.252 Gcell-steps/s, simulated over 2 steps; the prediction was NOT WITHIN ITS BOUNDS "
+                   "(predicted 7.992, -46.80 % cycles)"),
+      std::string::npos)
+      << outside;
+  EXPECT_EQ(outside.find("and verified"), std::string::npos);
+  EXPECT_EQ(outside.find(" verified, 2 steps"), std::string::npos);
+  EXPECT_NE(outside.find(" NOT WITHIN ITS BOUNDS, 2 steps: 4.252"), std::string::npos);
+  EXPECT_NE(outside.find("\"state\": \"outside\""), std::string::npos);
+  EXPECT_NE(outside.find(",1,0,0,105528"), std::string::npos) << "on the front, not verified";
+  const std::string inside = said_of(105528, 100300);
+  EXPECT_NE(inside.find("4.252 Gcell-steps/s, simulated over 2 steps and verified, predicted 7.992, -4.95 %"),
+            std::string::npos)
+      << inside;
+  EXPECT_EQ(inside.find("NOT WITHIN"), std::string::npos);
+  EXPECT_NE(inside.find("\"state\": \"verified\""), std::string::npos);
+}
+
+// A refresh of hbm2 takes 5 + 14 + 260 + 14 ns: 88 cycles at 300 MHz. A run is allowed one, and 5 %.
+TEST(ExploreCheck, TheBoundsAreAShareAndARefresh) {
+  memory::Parameters hbm2 = load_memory("hbm2", "test");
+  EXPECT_EQ(allowed_error(1000, hbm2, 300), 50 + 88);
+  EXPECT_EQ(allowed_error(100000, hbm2, 300), 5000 + 88);
+  EXPECT_EQ(beyond_bounds(hbm2, 500), "");
+  hbm2.channels = 64;
+  hbm2.interface_cycles = 401;
+  EXPECT_EQ(
+      beyond_bounds(hbm2, 501),
+      "401 ns through controller and pins (at most 400), 64 channels (at most 32), 501 MHz (at most 500)");
 }
 
 // A single token is never kept waiting.
