@@ -15,6 +15,7 @@
 #include "app/verify_shrink.h"
 #include "app/verify_sizes.h"
 #include "app/visibility.h"
+#include "hwmodel/caster/report/report_memory.h"
 #include "hwmodel/explore/predict_run.h"
 #include "hwmodel/machine/presets/presets.h"
 #include "hwmodel/pipeline/model/tiling.h"
@@ -55,13 +56,15 @@ std::string quiet_verdict(const hwmodel::VerifyReport& report) {
 
 void print_result(const VerifyCommand& command, const scene::Scene& scene,
                   const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                  const hwmodel::Configuration& c, const std::string& fast) {
+                  const hwmodel::Configuration& c, const std::string& fast,
+                  const std::optional<DramAccount>& dram) {
   if (command.common.quiet)
     return print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles, report.predicted_cycles,
                  quiet_verdict(report));
   print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene), c.lanes,
         c.cascade, c.fifo_depth, c.stall_seed, report.first_step, report.first_step + report.steps);
   print("{}", hwmodel::table_of(report, design, c));
+  if (dram && report.mismatch == nullptr) print("{}", hwmodel::memory_text(dram->counts, dram->parameters));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
       [](const hwmodel::StageReport& stage) { return is_stage(stage.kind) && stage.cascade == 0; });
@@ -132,10 +135,11 @@ hwmodel::VerifyOptions options_of(const Job& job, std::uint32_t first_step, hwmo
   return options;
 }
 
-void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hwmodel::Design& design) {
+void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hwmodel::Design& design,
+                   const std::optional<DramAccount>& dram) {
   const VerifyCommand& command = job.command;
   write_pipeline_report({command.common, command.picture.html}, name_of(job.scene), report, design,
-                        job.preset.configuration);
+                        job.preset.configuration, dram);
 }
 
 // Writes what shows a difference again: the replay, and with --shrink a small case.
@@ -167,14 +171,20 @@ int verify_pipeline(VerifyCommand command) {
   const hwmodel::Design design = hwmodel::design_of(job.scene.parameters, ahead.volume().grid, c);
   const hwmodel::memory::Choice memory = job.preset.caster.memory();
   std::optional<hwmodel::MemoryStreams> dram;
-  if (memory.dram) dram.emplace(design, c.cascade, *memory.dram, memory.clock_mhz);
+  std::optional<hwmodel::memory::TraceFiles> traces;
+  if (memory.dram) {
+    dram.emplace(design, c.cascade, *memory.dram, memory.clock_mhz);
+    dram->log(traces.emplace(memory.trace, memory.command_trace));
+  }
   const hwmodel::VerifyOptions options = options_of(job, ahead.step_number(), dram ? &*dram : nullptr);
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   const step::Implementation& fast = find_implementation(command.common);
   hwmodel::VerifyReport report =
       hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
+  std::optional<DramAccount> account;
   if (memory.dram) {
+    account = {*memory.dram, memory.clock_mhz, dram->all_counts()};
     const state::Volume start = ahead.volume();
     ahead.begin_step();  // computes the irradiance of the step
     hwmodel::explore::predict_on_memory(report, design, c, memory, start, ahead.irradiance());
@@ -185,16 +195,16 @@ int verify_pipeline(VerifyCommand command) {
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
-  print_result(command, job.scene, report, design, options.configuration, fast.name);
+  print_result(command, job.scene, report, design, options.configuration, fast.name, account);
   if (verdict == hwmodel::Verdict::good) {
-    write_reports(job, report, design);
+    write_reports(job, report, design, account);
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
       print("--shrink: there is no difference to make small\n");
     return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
   }
-  try_writing([&] { write_reports(job, report, design); });
+  try_writing([&] { write_reports(job, report, design, account); });
   try_writing([&] {
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) say(no_waves);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "hwmodel/caster/report/report_memory.h"
 #include "hwmodel/caster/report/report_picture.h"
 #include "hwmodel/machine/report_machine.h"
 #include "hwmodel/pipeline/report/report.h"
@@ -24,9 +25,13 @@ void write(const ReportPlaces& places, const Json& json, Page page, const std::s
 
 void write_pipeline_report(const ReportPlaces& places, const std::string& name,
                            const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                           const hwmodel::Configuration& configuration) {
+                           const hwmodel::Configuration& configuration,
+                           const std::optional<DramAccount>& dram) {
   Json json{{"scene", name}};
   json.update(hwmodel::json_of(report, design, configuration));
+  json["hw"]["memory"] = dram ? Json(dram->parameters.name) : Json();
+  json["hw"]["clock_mhz"] = dram ? Json(dram->clock_mhz) : Json();
+  if (dram) json["dram"] = hwmodel::memory_json(dram->counts, dram->parameters);
   write(places, json, hwmodel::pipeline_page,
         fmt::format("{}, {} steps from step {}", name, report.steps, report.first_step));
 }

@@ -9,6 +9,8 @@
 #include "app/options.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/machine/machine.h"
+#include "hwmodel/memory/counts.h"
+#include "hwmodel/memory/parameters.h"
 #include "hwmodel/pipeline/check/verify.h"
 #include "kernel/scene/scene.h"
 
@@ -20,10 +22,17 @@ struct ReportPlaces {
   const std::string& html;  // --html; empty for none
 };
 
+// Tells what a DRAM did in all trains of a pipeline.
+struct DramAccount {
+  hwmodel::memory::Parameters parameters;
+  int clock_mhz = 0;  // of the machine
+  hwmodel::memory::Counts counts;
+};
 // Writes the report of a pipeline. `name` is the scene's.
 void write_pipeline_report(const ReportPlaces& places, const std::string& name,
                            const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                           const hwmodel::Configuration& configuration);
+                           const hwmodel::Configuration& configuration,
+                           const std::optional<DramAccount>& dram);
 
 struct Drawn {
   std::string scene;

@@ -18,6 +18,7 @@ Screen::Screen(const raycast::PictureInput& input, const raycast::PictureOptions
   bytes_alone.compare = false;
   bytes_alone.fault = raycast::Fault::none;
   bytes_alone.configuration.memory_trace.clear();
+  bytes_alone.configuration.command_trace.clear();
   alone_.emplace(uploader_.registers(), uploader_.memory(), bytes_alone);
 }
 

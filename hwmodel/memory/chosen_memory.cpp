@@ -1,7 +1,5 @@
 #include "hwmodel/memory/chosen_memory.h"
 
-#include <stdexcept>
-
 namespace voxmelt::hwmodel::memory {
 
 ChosenMemory::ChosenMemory(const Choice& choice) : choice_(choice) {
@@ -10,11 +8,7 @@ ChosenMemory::ChosenMemory(const Choice& choice) : choice_(choice) {
     return;
   }
   dram_.emplace(*choice.dram, choice.clock_mhz);
-  if (choice.trace.empty()) return;
-  trace_file_.open(choice.trace);
-  if (!trace_file_) throw std::runtime_error(choice.trace + ": error: cannot be written");
-  trace_.emplace(trace_file_, choice.trace.ends_with(".stl") ? TraceFormat::dramsys : TraceFormat::ramulator);
-  dram_->trace(&*trace_);
+  traces_.emplace(choice.trace, choice.command_trace).attach(*dram_, 0);
 }
 
 std::int64_t ChosenMemory::bus_cycles() const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -19,7 +18,7 @@ struct Choice {
   std::optional<Parameters> dram;    // none: a fixed latency, as the next two say
   int latency = 40, bus_bytes = 64;  // cycles of the machine; bytes in each of them
   int clock_mhz = 200;               // clock of the machine
-  std::string trace;                 // file for the requests to a DRAM; empty: none
+  std::string trace, command_trace;  // files for the requests to a DRAM, and its commands; empty: none
 
   double most_bytes_per_cycle() const {  // bytes per cycle of the machine
     return dram ? static_cast<double>(dram->peak()) / clock_mhz : bus_bytes;
@@ -28,7 +27,7 @@ struct Choice {
 
 class ChosenMemory {
  public:
-  // Throws std::runtime_error if the trace cannot be written.
+  // Throws std::runtime_error if a trace cannot be written.
   explicit ChosenMemory(const Choice& choice);
 
   Memory& memory() { return dram_ ? static_cast<Memory&>(*dram_) : *fixed_; }
@@ -44,8 +43,7 @@ class ChosenMemory {
   Choice choice_;
   std::optional<Dram> dram_;
   std::optional<FixedLatency> fixed_;
-  std::ofstream trace_file_;
-  std::optional<TraceWriter> trace_;
+  std::optional<TraceFiles> traces_;
 };
 
 }  // namespace voxmelt::hwmodel::memory

@@ -202,6 +202,44 @@ class Outputs(unittest.TestCase):
         _, fixed = self.run_with_page(0, self.scene, "--steps", 9, "--set", "hw.lanes=16")
         self.assertNotIn("predicted_cycles_on_memory", fixed)
 
+    def test_a_dram_accounts_for_what_it_did(self):
+        """The report counts what the two traces list: requests, commands, and when."""
+        logs = ["--set", "hw.memory_trace=requests.stl", "--set", "hw.command_trace=commands.csv"]
+        _, report = self.run_with_page(0, self.scene, "--steps", 9, "--set", "hw.lanes=16", "--set", "hw.clock_mhz=300",
+                                       "--set", "hw.memory=lpddr4-3200", *logs)
+        dram, hw = report["dram"], report["hw"]
+        self.assertEqual((hw["memory"], hw["clock_mhz"], dram["mhz"]), ("lpddr4-3200", 300, 1600))
+        requests = [line.split() for line in (self.folder / "requests.stl").read_text().splitlines()]
+        kinds = [kind for _, kind, _ in requests]
+        # At the end of a train some writes wait in the queues of 64: they were taken, and not done.
+        trains = len(report["trains"])
+        self.assertGreater(trains, 1)
+        self.assertEqual(kinds.count("read"), dram["reads"])
+        self.assertGreaterEqual(kinds.count("write"), dram["writes"])
+        self.assertLessEqual(kinds.count("write"), dram["writes"] + 4 * 64 * trains)
+        served = sum(dram[f"row_{kind}"] for kind in ("hits", "misses", "conflicts"))
+        self.assertEqual(served, dram["reads"] + dram["writes"])
+        commands = [line.split(", ") for line in (self.folder / "commands.csv").read_text().splitlines()]
+        names = [name for _, name, *_ in commands]
+        self.assertEqual(names.count("RD"), 2 * dram["reads"], "of 32 bytes")
+        self.assertGreaterEqual(names.count("WR"), 2 * dram["writes"])
+        self.assertLessEqual(names.count("WR"), 2 * dram["writes"] + 4 * trains, "half of a request")
+        self.assertEqual(names.count("ACT"), dram["activates"])
+        self.assertEqual(names.count("PRE") + names.count("PREA"), dram["precharges"])
+        self.assertEqual(names.count("REF"), dram["refreshes"])
+        self.assertEqual({int(channel) for _, _, channel, *_ in commands}, {0, 1, 2, 3})
+        for cycles in ([int(c.rstrip(":")) for c, *_ in requests], [int(c) for c, *_ in commands]):
+            self.assertEqual(cycles, sorted(cycles), "cycles go on over all trains")
+        # Every train has a memory of its own, which runs until its last cycle. Data of the last commands lie behind.
+        all_cycles = 4 * sum(t["cycles"] * 1600 // 300 for t in report["trains"])
+        self.assertAlmostEqual(dram["data_bus_cycles"]["all"], all_cycles, delta=4 * (28 + 6 + 16 + 6) * trains)
+        _, free = self.run_with_page(0, self.scene, "--steps", 9, "--set", "hw.lanes=16")
+        self.assertIsNone(free["hw"]["memory"])
+        self.assertNotIn("dram", free)
+        bad = voxmelt("verify", self.scene, "--set", "hw.command_trace=c.csv", cwd=self.folder)
+        self.assertEqual(bad.returncode, 2)
+        self.assertIn("hw.memory must be a DRAM", bad.stderr)
+
     def test_what_stages_did_over_time_sums_to_their_accounts(self):
         for more in (["--set", "hw.lanes=16", "--steps", 1], ["--hw", "stalls", "--steps", 12]):
             _, report = self.run_with_page(0, self.scene, *more)

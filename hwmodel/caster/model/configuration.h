@@ -39,10 +39,11 @@ struct Configuration {
   int latency = 40;                        // latency of the memory, in cycles
   int bus_bytes = 64;                      // bytes that the memory gives in a cycle
   std::string memory_trace;                // file of the requests to a DRAM; empty for none
+  std::string command_trace;               // file of its commands; empty for none
   bool apron = false;                      // bricks of levels hold their apron: a line is a brick
   int level_bits = 2;  // log2 of the places of a line of levels along an axis, without apron: 1 to 3
 
-  memory::Choice memory() const { return {dram, latency, bus_bytes, clock_mhz, memory_trace}; }
+  memory::Choice memory() const { return {dram, latency, bus_bytes, clock_mhz, memory_trace, command_trace}; }
   int tiles_in_turn(bool clear) const { return clear ? std::min(tiles, clear_tiles) : tiles; }
 };
 

@@ -6,10 +6,8 @@
 
 namespace voxmelt::hwmodel {
 
-// Reads the keys `clock_mhz` and `memory` of [hw]. The memory is "fixed", or a name or file as in
-// hwmodel/memory/sheet.h.
-void read_clock_and_memory(scene::Reader& hw, raycast::Configuration& configuration);
-// Reads these keys, and `memory_trace`.
+// Reads the keys `clock_mhz`, `memory`, `memory_trace` and `command_trace` of [hw]. The memory is "fixed", or
+// a name or file as in hwmodel/memory/sheet.h.
 void read_memory(scene::Reader& hw, raycast::Configuration& configuration);
 // Reads all of these, and the keys of the ray caster.
 void read_caster(scene::Reader& hw, raycast::Configuration& c);

@@ -29,7 +29,7 @@ Preset preset_of(const scene::Value& document, Runs runs) {
   if (std::optional<scene::Reader> hw = root.table("hw")) {
     if (runs != Runs::caster) read_pipeline(*hw, preset.configuration);
     if (runs == Runs::pipeline)
-      read_clock_and_memory(*hw, preset.caster);
+      read_memory(*hw, preset.caster);
     else
       read_caster(*hw, preset.caster);
     hw->finish();
@@ -45,7 +45,7 @@ Preset load_preset(const std::filesystem::path& file, const std::vector<std::str
   if (!file.empty()) document = scene::read_document(file);
   for (const std::string& assignment : overrides) {
     // A trace needs a DRAM, which only the file may name. So this override is not checked alone.
-    if (runs == Runs::pipeline || !assignment.starts_with("hw.memory_trace"))
+    if (!assignment.starts_with("hw.memory_trace") && !assignment.starts_with("hw.command_trace"))
       scene::apply_override(options, assignment);
     scene::apply_override(document, assignment);
   }

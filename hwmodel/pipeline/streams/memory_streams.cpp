@@ -37,7 +37,10 @@ MemoryStreams::MemoryStreams(const Design& design, int cascade, memory::Memory& 
 
 void MemoryStreams::open_ports() {
   if (memory_ == nullptr || own_ != nullptr) {
+    before_ = all_counts();
+    if (own_ != nullptr) cycles_before_ += own_->memory_cycles();
     own_ = std::make_unique<memory::Dram>(parameters_, clock_mhz_);
+    if (traces_ != nullptr) traces_->attach(*own_, cycles_before_);
     memory_ = own_.get();
   } else if (opened_) {
     return;

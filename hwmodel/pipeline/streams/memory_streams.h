@@ -12,6 +12,7 @@
 
 #include "hwmodel/fabric/memory_port.h"
 #include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/trace.h"
 #include "hwmodel/pipeline/model/pipeline.h"
 #include "hwmodel/pipeline/model/stream_memory.h"
 #include "hwmodel/pipeline/streams/column_port.h"
@@ -58,6 +59,14 @@ class MemoryStreams final : public StreamMemory {
   bool works() const override { return memory_ != nullptr && memory_->works(); }
 
   memory::Counts counts() const { return own_->counts(); }  // for the last train, on a DRAM of its own
+  // Sums over all trains, each on a DRAM of its own.
+  memory::Counts all_counts() const {
+    memory::Counts all = before_;
+    if (own_ != nullptr) all += own_->counts();
+    return all;
+  }
+  // Logs what a DRAM of its own does in all trains from now on.
+  void log(memory::TraceFiles& traces) { traces_ = &traces; }
 
   static constexpr std::int64_t kBurstBits = 8 * memory::kBurst;
   static constexpr std::int64_t kAhead = 128 * kBurstBits;  // of a stream's buffer: 8 KiB
@@ -125,6 +134,9 @@ class MemoryStreams final : public StreamMemory {
   memory::Parameters parameters_;  // for a DRAM of its own
   int clock_mhz_ = 0;
   std::unique_ptr<memory::Dram> own_;
+  memory::Counts before_{};         // of the trains before the last one
+  std::int64_t cycles_before_ = 0;  // of the memory
+  memory::TraceFiles* traces_ = nullptr;
   memory::Memory* memory_ = nullptr;
   std::int64_t base_ = 0;
   bool opened_ = false;            // the ports of a memory that is shared
