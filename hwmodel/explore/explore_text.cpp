@@ -111,7 +111,8 @@ std::string headline_of(const Explored& explored) {
   }
   if (!checked->good) return "but it DIFFERS from the software";
   const std::string simulated =
-      fmt::format("{} Gcell-steps/s, simulated over {} steps", giga(checked->speed), checked->steps);
+      fmt::format("{} Gcell-steps/s, simulated over {} step{}", giga(checked->speed), checked->steps,
+                  checked->steps == 1 ? "" : "s");
   const std::string predicted =
       fmt::format("predicted {}, {:+.2f} % cycles", giga(checked->predicted_speed), 100 * checked->error());
   if (checked->within_bounds()) return fmt::format("{} and verified, {}", simulated, predicted);
