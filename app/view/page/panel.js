@@ -1,5 +1,5 @@
 // The panel: what can be changed, and what is seen of it. Every change is a key of the scene file.
-import { opening, Sources } from "/switches.js";
+import { kinds, opening, Sources } from "/switches.js";
 
 const byId = (id) => document.getElementById(id);
 const round = (v, digits = 3) => Number(v.toPrecision(digits));
@@ -75,7 +75,7 @@ export class Panel {
     if (this.busy) return;
     this.showList("sources", world.heat_sources, "heat_source", (source, i) => {
       const key = source.keyframes.at(-1);
-      return [[`${i + 1}. ${source.kind}: power`, "power", key.power]];
+      return [[`${i + 1}. ${kinds[source.kind]}: power`, "power", key.power]];
     }, (source, i) => [this.sources.kind(source, i), this.sources.power(source, i)], (i) => this.sources.removed(i));
     this.showList("vents", world.vents, "vent", (vent, i) =>
       [[`${i + 1}. rate`, "rate", vent.rate], ["temperature", "temperature", vent.temperature],

@@ -1,5 +1,5 @@
 // Heat sources, vents and drains go on and off, and a heat source becomes one of another kind.
-const kinds = { point: "point", sphere: "sphere", directional: "sun", sky: "sky" };
+export const kinds = { point: "point", sphere: "sphere", directional: "sun", sky: "sky" };
 
 // A switch says what it does for the eye and for a reader of the screen.
 function button(text, title, on, act) {
