@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What a hand did is done again, exactly: again_test.py VOXMELT [--journals N]
+"""What a hand did is done again, exactly: again_test.py VOXMELT [--journals N --steps M]
 
-Random journals give equal digests by `view --headless`, `digest` and `run`, with every implementation and several numbers
-of threads. A page that goes back in time comes to the state that it had, and what came later is forgotten."""
+Random journals give equal digests by `view --headless`, `digest` and `run`, with the implementations and 1 to 3 threads in
+turn; with --journals each journal with every implementation. A page that goes back in time comes to the state that it had, and what came later is forgotten."""
 import random
 import re
 import sys
@@ -12,17 +12,15 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "app"))
-JOURNALS = 20
-if "--journals" in sys.argv:
-    at = sys.argv.index("--journals")
-    JOURNALS = int(sys.argv[at + 1])
-    del sys.argv[at:at + 2]
+JOURNALS, STEPS, WHOLE = 20, 40, "--journals" in sys.argv
+if WHOLE:
+    JOURNALS, STEPS = int(sys.argv[sys.argv.index("--journals") + 1]), int(sys.argv[sys.argv.index("--steps") + 1])
+    del sys.argv[2:]
 from page import Page, Server
 from program import PROGRAM, SMALL, voxmelt, write
 
 PAPER = SMALL.replace("size = [12, 10, 12]", "size = [20, 16, 20]").replace("size = [4, 4, 4]", "size = [8, 8, 8]")
 VISCOUS = PAPER.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.1')
-STEPS = 40
 
 
 def change(dice, law, counts):
@@ -91,7 +89,8 @@ class AgainTest(unittest.TestCase):
             wanted = digests("digest", scene, "--journal", "journal.txt", "--steps", STEPS, "--every", 10,
                              "--implementation", "reference", cwd=self.path)
             differ += wanted[STEPS] != plain[law]
-            for k, command in enumerate((("view", "--headless"), ("digest",))):
+            for k in range(max(2, len(others)) if WHOLE else 2):
+                command = (("view", "--headless"), ("digest",))[k % 2]
                 name, threads = others[(seed + k) % len(others)], 1 + (seed + k) % 3
                 got = digests(command[0], scene, *command[1:], "--journal", "journal.txt", "--steps", STEPS, "--every", 10,
                               "--implementation", name, "--threads", threads, cwd=self.path)
