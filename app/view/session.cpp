@@ -80,7 +80,7 @@ Session::Session(Open open, std::string scene, Send send)
 
 void Session::stop() {
   const std::lock_guard lock(mutex_);
-  stopped_ = true;
+  stop_.request_stop();
   something_.notify_all();
 }
 
@@ -101,8 +101,8 @@ bool Session::wait() {
   {
     std::unique_lock lock(mutex_);
     const bool busy = playing_ || single_ > 0 || stale_ || (best_ && drawn_ != Quality::best);
-    if (!busy) something_.wait(lock, [&] { return stopped_ || !orders_.empty(); });
-    if (stopped_) return false;
+    if (!busy) something_.wait(lock, [&] { return stop_.stop_requested() || !orders_.empty(); });
+    if (stop_.stop_requested()) return false;
     orders.swap(orders_);
   }
   for (const Order& order : orders) obey(order);
@@ -110,11 +110,14 @@ bool Session::wait() {
 }
 
 void Session::run() {
-  while (wait()) {
-    const std::uint32_t count = playing_ ? speed_ : std::min(single_, speed_);
-    if (count > 0) step(count);
-    single_ -= std::min(single_, count);
-    if (stale_ || (best_ && drawn_ != Quality::best)) show();
+  try {
+    while (wait()) {
+      const std::uint32_t count = playing_ ? speed_ : std::min(single_, speed_);
+      if (count > 0) step(count);
+      single_ -= std::min(single_, count);
+      if (stale_ || (best_ && drawn_ != Quality::best)) show();
+    }
+  } catch (const Stopped&) {  // while a picture was drawn
   }
 }
 
@@ -322,8 +325,9 @@ void Session::go_back(std::uint32_t step) {
   journal::Reader replay(changes_);
   replay.seek(again.steps_done());
   while (again.steps_done() < step) {
+    if (stop_.stop_requested()) return;
     replay.apply(world);
-    again.step(replay.steps_until_next(again.steps_done(), step - again.steps_done()));
+    again.step(replay.steps_until_next(again.steps_done(), step - again.steps_done()), stop_.get_token());
   }
   simulation_ = std::move(again);
   cut_at(step);
@@ -344,11 +348,12 @@ void Session::cut_at(std::uint32_t step) {
 void Session::step(std::uint32_t count) {
   const Clock::time_point begin = Clock::now();
   const std::uint32_t end = simulation_.steps_done() + count;
-  while (simulation_.steps_done() < end) {
+  while (simulation_.steps_done() < end && !stop_.stop_requested()) {
     const std::uint32_t left = end - simulation_.steps_done();
     journal::WorldOf<Simulation> world(simulation_);
     if (journal_) journal_->apply(world, [&](const journal::Change& change) { write_down(change); });
-    simulation_.step(journal_ ? journal_->steps_until_next(simulation_.steps_done(), left) : left);
+    simulation_.step(journal_ ? journal_->steps_until_next(simulation_.steps_done(), left) : left,
+                     stop_.get_token());
   }
   last_.step = since(begin);
   past_.offer(simulation_);
@@ -406,7 +411,8 @@ void Session::draw() {
   const Quality quality = fast ? Quality::fast : best_ && !stale_ ? Quality::best : Quality::normal;
   const Clock::time_point begin = Clock::now();
   const Picture wanted = picture(quality);
-  const Frame frame = cells_ ? simulation_.render_cells(*cells_, wanted) : simulation_.render(wanted);
+  const Frame frame =
+      cells_ ? simulation_.render_cells(*cells_, wanted) : simulation_.render(wanted, stop_.get_token());
   last_.draw = since(begin);
   const Clock::time_point drawn = Clock::now();
   const std::string image = fast ? jpeg_of(frame) : png_of(frame);

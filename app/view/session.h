@@ -28,6 +28,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -138,7 +139,7 @@ class Session {
   std::mutex mutex_;  // of what follows
   std::condition_variable something_;
   std::vector<Order> orders_;
-  bool stopped_ = false;
+  std::stop_source stop_;  // steps and pictures end by it, too
 
   Client film_for_ = 0;
   std::optional<Film> film_;  // last: its thread puts orders

@@ -20,7 +20,7 @@ from page import Page, Server
 from program import PROGRAM, SMALL, voxmelt, write
 
 PAPER = SMALL.replace("size = [12, 10, 12]", "size = [20, 16, 20]").replace("size = [4, 4, 4]", "size = [8, 8, 8]")
-VISCOUS = PAPER.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.1')
+VISCOUS = PAPER.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.1\nsubsteps_max = 8')
 
 
 def change(dice, law, counts):

@@ -353,6 +353,13 @@ class ViewTest(unittest.TestCase):
                 page.send("play 1")
                 page.hear()
                 self.assertEqual(server.end(how), (0, ""))
+        # In the midst of a thousand steps, which take the reference minutes.
+        with Server(PROGRAM, "cello_viscous", "--implementation", "reference", "--threads", 1, cwd=self.path) as server, Page(server) as page:
+            page.rest(0)
+            page.send("speed 1000")
+            page.send("step 1000")
+            time.sleep(0.5)
+            self.assertEqual(server.end(), (0, ""))
 
     def test_journals_that_are_wrong(self):
         for text, wanted in (("x\n", "bad.txt:1:1: error: a line begins with a number of steps and a key"),
