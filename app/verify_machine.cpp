@@ -81,14 +81,16 @@ const measure::PaperRow* paper_row(std::string_view scene) {
   return nullptr;
 }
 
+// Begins with the machine that differs, if only one does.
 std::string verdict_of(const hwmodel::MachineReport& report) {
-  std::string text;
-  if (report.steps.mismatch != nullptr) text += hwmodel::text_of(*report.steps.mismatch);
-  if (report.steps.mismatch == nullptr && report.steps.steps > 0)
-    text +=
-        fmt::format("{} cells compared behind the stages of the pipeline: no difference; digest {:016x}\n",
-                    report.steps.compared_cells, report.steps.digest);
-  return text + hwmodel::raycast::verdict_text(report.pictures);
+  const std::string pictures = hwmodel::raycast::verdict_text(report.pictures);
+  if (report.steps.mismatch != nullptr) return hwmodel::text_of(*report.steps.mismatch) + pictures;
+  if (report.steps.steps == 0) return pictures;
+  const std::string steps =
+      fmt::format("{} cells compared behind the stages of the pipeline: no difference; digest {:016x}{}\n",
+                  report.steps.compared_cells, report.steps.digest,
+                  report.steps.strike ? "; the planted fault was NOT FOUND" : "");
+  return report.pictures.good() && !report.pictures.strike ? steps + pictures : pictures + steps;
 }
 
 // Chooses the planted fault, of either machine.

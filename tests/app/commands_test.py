@@ -733,6 +733,14 @@ kappa = 20
         self.assertGreater(report["software"]["pictures_a_second"], 0)
         self.assertNotIn("software", self.good("verify", self.scene, "--machine", "--steps", 1, "--size", "16x16", "--quiet"))
 
+    def test_the_one_verdict_of_a_quiet_machine_is_that_of_what_differs(self):
+        for fault, verdict in (("met-depth", "DIFFERENCE behind stage met"), ("melt-stuck", "first mismatch (stage): melt")):
+            result = voxmelt("verify", self.scene, "--machine", "--steps", 6, "--frames", 2, "--size", "16x16", "--plant", fault,
+                             "--out", "replay", "--quiet", cwd=self.folder)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(verdict, result.stdout)
+            self.assertNotIn("no difference", result.stdout)
+
 
 if __name__ == "__main__":
     unittest.main(argv=["commands_test", *(["-k", "test_every*fault*"] if EVERY_FAULT == 1 else [])], verbosity=1)
