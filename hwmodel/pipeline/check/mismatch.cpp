@@ -21,12 +21,16 @@ const char* name_of(Mismatch::Kind kind) {
       return "books";
     case software:
       return "software";
+    case asleep:
+      return "asleep";
     case missing:
       return "missing stage";
     case width:
       return "width";
     case address:
       return "address";
+    case halo:
+      return "halo";
     case cycles:
       return "cycles";
     case hang:
@@ -39,7 +43,8 @@ std::string text_of(const Mismatch& m) {
   using enum Mismatch::Kind;
   std::string place = fmt::format("step {}", m.step);
   if (m.phase) place += fmt::format(", phase {}", name_of(m.phase));
-  if (m.kind != software && m.kind != missing && m.kind != cycles)
+  const bool of_software = m.kind == software || m.kind == asleep;
+  if (!of_software && m.kind != missing && m.kind != cycles && m.kind != halo)
     place += fmt::format(", cascade position {}, lane {}, cycle {}", m.cascade, m.lane, m.cycle);
   if (m.kind == hang)
     return fmt::format(
@@ -49,8 +54,9 @@ std::string text_of(const Mismatch& m) {
   if (m.kind == cycles)
     return text + fmt::format("  the pass took {} cycles, not the {} of the closed form; {}\n", m.actual,
                               m.expected, m.detail);
+  if (of_software && !m.detail.empty()) return text + "  " + m.detail + '\n';
   text += fmt::format("  cell ({}, {}, {})", m.x, m.y, m.z);
-  if (m.kind == width || m.kind == address) return text + ": " + m.detail + '\n';
+  if (m.kind == width || m.kind == address || m.kind == halo) return text + ": " + m.detail + '\n';
   text += fmt::format(": {} expected {} = {:#06x}, is {} = {:#06x}, bits that differ {:#06x}\n", m.field,
                       m.expected, m.expected, m.actual, m.actual, m.expected ^ m.actual);
   if (m.neighbourhood.empty()) return text;

@@ -19,9 +19,11 @@ struct Mismatch {
     memory,    // the written volume is not the reference's
     books,     // the writer's sums over a pass are not what the reference holds
     software,  // a software kernel differs from the reference
+    asleep,    // a tile of a software kernel sleeps beside a cell that was changed
     missing,   // the reference changed something in a phase for which the pipeline has no stage
     width,     // a value did not fit its wire
     address,   // a stage addressed what its memory does not have
+    halo,      // a tile owns a cell that depends on others which the tile has not
     cycles,    // nothing stalled, and the pass did not take the cycles of the closed form
     hang,      // nothing moves any more
   };

@@ -17,6 +17,7 @@
 #include "hwmodel/pipeline/check/diagnosis.h"
 #include "hwmodel/pipeline/check/falling.h"
 #include "hwmodel/pipeline/check/feed_checker.h"
+#include "hwmodel/pipeline/check/halo_check.h"
 #include "hwmodel/pipeline/faults/planted_faults.h"
 #include "hwmodel/pipeline/faults/planted_stages.h"
 #include "hwmodel/pipeline/model/pipeline.h"
@@ -110,6 +111,11 @@ class Lockstep::Run {
     if (starts_replay(step)) {
       report_.replay = memory_;
       report_.replay_step = step;
+    }
+    if ((report_.mismatch = narrow_halo(machine_.design(), options_.configuration.cascade))) {
+      report_.mismatch->step = step;
+      report_.pass_end = step + 1;
+      return;
     }
     software_.begin_step();
     falling_ = software_.falling();
