@@ -1,5 +1,4 @@
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include "kernel/automaton/rule/visibility.h"
@@ -26,10 +25,7 @@ Fate plain_fate(const Opaque& opaque, const Ray& ray) {
 
 Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
-  return with_walk(ray, [&](auto& walk) {
-    bool ends = false;
-    return follow(opaque, gaps, walk, std::numeric_limits<int>::max(), ends);
-  });
+  return with_walk(ray, [&](auto& walk) { return follow(opaque, gaps, walk); });
 }
 
 void PlainCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 
 #include "kernel/engine/visibility/brick_walk.h"
 #include "kernel/engine/visibility/gaps.h"
@@ -10,17 +12,28 @@
 
 namespace voxmelt::visibility {
 
-// Follows a walk that begins in the grid through at most `most` bricks and gaps. It returns the opaque cell
-// that it meets, or kSees. With kSees, `ends` tells if it has come to its end, or out of the grid.
+// Counts the bricks on the longest path. A straight ray never turns back, so each further brick on its way is
+// the next one along an axis at least.
+inline int longest_path(const state::Grid& bricks) { return bricks.x + bricks.y + bricks.z - 2; }
+
+[[noreturn]] inline void stands_still(const Cell& cell) {
+  throw std::logic_error(
+      "a ray of visibility does not come on: it has met more bricks than lie on a line, at cell (" +
+      std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ")");
+}
+
+// Follows a walk that begins in the grid. It returns the opaque cell that it meets, or kSees. Throws
+// std::logic_error if the walk does not come on.
 template <class Walk>
-Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk, int most, bool& ends) {
+Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk) {
   const std::size_t octant = walk.octant();
-  for (ends = false; most > 0 && !ends; --most) {
+  int left = longest_path(opaque.bricks());
+  for (bool ends = false; !ends; --left) {
+    if (left == 0) stands_still(walk.cell());
     const std::size_t brick = opaque.brick_at(walk.cell());
     const int gap = gaps.at(octant, brick);
-    if (gap == Gaps::kEndless) {
-      ends = true;
-    } else if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
+    if (gap == Gaps::kEndless) return kSees;
+    if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
       ends = !walk.leave(std::max(gap, 1));
     } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
       return fate;

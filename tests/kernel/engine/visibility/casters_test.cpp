@@ -6,11 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "kernel/engine/visibility/brick_walk.h"
+#include "kernel/engine/visibility/gaps.h"
 #include "kernel/engine/visibility/surface.h"
+#include "kernel/engine/visibility/two_level.h"
 #include "tests/kernel/engine/visibility/caster_check.h"
 
 namespace voxmelt::visibility {
@@ -139,6 +142,62 @@ TEST(BrickWalk, TheLongestNarrowCourse) {
     ASSERT_EQ(walk.cell(), (Cell{plain.x(), plain.y(), plain.z()})) << cells;
   }
   EXPECT_GE(walk.cell()[0], 4095);
+}
+
+// The bricks hold an opaque cell each, away from the diagonal.
+Volume cluttered_world() {
+  Volume v({40, 40, 40});
+  for (int z = 0; z < 40; z += 8)
+    for (int y = 0; y < 40; y += 8)
+      for (int x = 0; x < 40; x += 8) put_solid(v, x, y + 7, z);
+  return v;
+}
+
+struct Seen {
+  Opaque opaque;
+  Gaps gaps;
+  explicit Seen(const Volume& v) {
+    cpu::Workers workers(1);
+    const Opaque::News news = opaque.take(v, workers);
+    gaps.update(opaque, news);
+  }
+};
+
+// A ray from corner to corner that passes no edge of a brick meets as many bricks as a ray can.
+TEST(TwoLevel, TheLongestPathIsFollowedToItsEnd) {
+  const Seen seen(cluttered_world());
+  const Ray ray{{0, 0, 0}, {0, 2, 5}, {640, 641, 643}};
+  BrickWalk<std::int64_t> walk(ray.cell, Course(ray));
+  std::set<std::size_t> bricks{seen.opaque.brick_at(walk.cell())};
+  while (walk.step() && seen.opaque.contains(walk.cell())) bricks.insert(seen.opaque.brick_at(walk.cell()));
+  EXPECT_EQ(bricks.size(), 5u + 5 + 5 - 2);
+  EXPECT_EQ(two_level_fate(seen.opaque, seen.gaps, ray), kSees);
+}
+
+// Stays where it is, whatever it says, as a walk that misses an exact tie of two planes would.
+class WalkThatStandsStill {
+ public:
+  enum class End { stopped, arrived, left };
+  const Cell& cell() const { return cell_; }
+  std::size_t octant() const { return 7; }
+  bool leave(int /*side*/) { return ++asked_ > 0; }
+  template <class Test>
+  End within(std::uint32_t& /*number*/, const Test& /*test*/) {
+    ++asked_;
+    return End::left;
+  }
+  int asked() const { return asked_; }
+
+ private:
+  Cell cell_{0, 0, 0};
+  int asked_ = 0;
+};
+
+TEST(TwoLevel, AWalkThatStandsStillIsAnError) {
+  const Seen seen(cluttered_world());
+  WalkThatStandsStill walk;
+  EXPECT_THROW(follow(seen.opaque, seen.gaps, walk), std::logic_error);
+  EXPECT_EQ(walk.asked(), 5 + 5 + 5 - 2) << "once for each brick on the longest path";
 }
 
 // No face that has a ray is forgotten. For points and suns, all faces that may look have rays.
