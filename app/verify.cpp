@@ -87,6 +87,18 @@ void check_asked(const VerifyCommand& command) {
          "with --no-compare no stage is compared; --vcd-from says which cycles");
   refuse(machine && !command.shrink.empty(), "--shrink",
          "of one machine: the pipeline, or with --picture the caster");
+  if (command.sleep) {
+    const char* const alone = "--sleep runs the software alone";
+    refuse(picture, "--picture", alone);
+    refuse(machine, "--machine", alone);
+    refuse(!command.hw.empty() || !command.hw_sets.empty(), "--hw", alone);
+    refuse(!command.plant.empty(), "--plant", alone);
+    refuse(!command.vcd.empty(), "--vcd", alone);
+    refuse(!command.shrink.empty(), "--shrink", alone);
+    refuse(!command.size_fifos.empty(), "--size-fifos", alone);
+    refuse(!command.picture.html.empty(), "--html", "--sleep has a --report, and no page");
+    refuse(command.every != 1, "--every", "--sleep compares after every phase of every step");
+  }
   refuse((picture || machine) && !command.size_fifos.empty(), "--size-fifos", "only of the pipeline alone");
   refuse(picture && command.plant_step.has_value(), "--plant-step", "a picture has no steps (--picture)");
   refuse(command.plant_step && command.plant.empty(), "--plant-step",
@@ -102,6 +114,7 @@ void check_asked(const VerifyCommand& command) {
 int run_verify(VerifyCommand command) {
   split_sets(command);
   check_asked(command);
+  if (command.sleep) return verify_sleep(std::move(command));
   if (command.picture.machine) return verify_whole_machine(std::move(command));
   if (command.picture.asked) return run_picture(std::move(command));
   return verify_pipeline(std::move(command));
@@ -137,6 +150,8 @@ void add_verify(CommandLine& program) {
       .shows_default();
   command.option("--hw", options->hw,
                  "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
+  command.flag("--sleep", options->sleep,
+               "the software alone: step what sleeps, too, and compare after every phase");
   command.option("--plant", options->plant,
                  "plant a fault in the model (`voxmelt list faults`), to see it found");
   command.option("--plant-step", options->plant_step,

@@ -23,6 +23,7 @@ struct VerifyCommand {
   Common common;
   std::uint32_t steps = 10, every = 1, from = 0;
   std::string from_text = "0";  // --from: a step, or a checkpoint
+  bool sleep = false;           // the software alone: --sleep
   std::optional<std::uint32_t> plant_step;
   std::string hw, plant, out, vcd, shrink, size_fifos;
   std::optional<std::int64_t> vcd_from;
@@ -33,6 +34,7 @@ struct VerifyCommand {
 int verify_pipeline(VerifyCommand command);
 int verify_caster(const VerifyCommand& command, const scene::Scene& scene, const run::Simulation& state);
 int verify_whole_machine(VerifyCommand command);
+int verify_sleep(VerifyCommand command);
 
 // Finds the file of --hw.
 std::filesystem::path find_preset(const std::string& given);

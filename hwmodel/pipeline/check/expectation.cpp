@@ -1,10 +1,13 @@
 #include "hwmodel/pipeline/check/expectation.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "hwmodel/pipeline/check/falling.h"
+#include "kernel/run/sleep_audit.h"
 
 namespace voxmelt::hwmodel {
 
@@ -39,7 +42,11 @@ Expectation::Step Expectation::step(bool keep) {
   Step result;
   Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
   if (keep && unfallen_ != nullptr) result.stages.push_back({unfallen_, before, {}});  // behind `fall`
-  for (const step::Phase phase : reference_.phases()) {
+  state::Volume before_flow;
+  const std::vector<step::Phase> phases = reference_.phases();
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const step::Phase phase = phases[i];
+    if (run::begins_flow(phases, i)) before_flow = reference_.volume();
     const bool staged =
         std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });
     const step::Moment moment = reference_.moment();
@@ -69,6 +76,7 @@ Expectation::Step Expectation::step(bool keep) {
     expect_inside(phase, moment, before, after, result.stages);
     before = after;
   }
+  result.mismatch = compare_sleep(before_flow, phases.back());
   reference_.end_step();
   fast_.end_step();
   begun_ = false;
@@ -82,6 +90,9 @@ std::unique_ptr<Mismatch> Expectation::compare_software(step::Phase phase) const
                  .phase = phase,
                  .step = step_number(),
                  .field = "ledger"};
+  if (const auto term = state::first_difference(reference_.ledger(), fast_.ledger()))
+    found.detail = "no cell differs, but the books do: " + term->term + " expected " +
+                   state::to_string(term->expected) + ", is " + state::to_string(term->actual);
   const Difference d = first_difference(reference_.volume(), fast_.volume());
   if (!d.field.empty()) {
     found.x = d.x;
@@ -90,8 +101,23 @@ std::unique_ptr<Mismatch> Expectation::compare_software(step::Phase phase) const
     found.field = d.field;
     found.expected = d.expected;
     found.actual = d.actual;
+    found.detail.clear();
   }
   return std::make_unique<Mismatch>(std::move(found));
+}
+
+std::unique_ptr<Mismatch> Expectation::compare_sleep(const state::Volume& before_flow,
+                                                     step::Phase last) const {
+  const auto found = run::sleeps_beside_change(before_flow, volume(), fast_.awake());
+  if (!found) return nullptr;
+  return std::make_unique<Mismatch>(Mismatch{.kind = Mismatch::Kind::asleep,
+                                             .where = fast_name_,
+                                             .phase = last,
+                                             .step = step_number(),
+                                             .x = found->x,
+                                             .y = found->y,
+                                             .z = found->z,
+                                             .detail = found->text()});
 }
 
 void Expectation::expect_inside(step::Phase phase, step::Moment moment, const Snapshot& before,

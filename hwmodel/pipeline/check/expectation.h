@@ -54,6 +54,8 @@ class Expectation {
   using Snapshot = std::shared_ptr<const state::Volume>;
 
   std::unique_ptr<Mismatch> compare_software(step::Phase phase) const;
+  // Reports a tile of `fast` that sleeps beside what the flow has changed in the step that ends.
+  std::unique_ptr<Mismatch> compare_sleep(const state::Volume& before_flow, step::Phase last) const;
   // Appends the stages of one phase, given its moment, and the state before and after it.
   void expect_inside(step::Phase phase, step::Moment moment, const Snapshot& before, const Snapshot& after,
                      std::vector<Expected>& stages);
