@@ -27,8 +27,10 @@ std::string text_of(const Difference& d) {
   return text;
 }
 
-Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, int height)
+Checker::Checker(const Expectation& expectation, const Registers& registers, RayCaster& caster, int width,
+                 int height)
     : expectation_(expectation),
+      registers_(registers),
       caster_(caster),
       width_(width),
       height_(height),
@@ -40,8 +42,10 @@ Checker::Checker(const Expectation& expectation, RayCaster& caster, int width, i
 }
 
 Watchers Checker::watchers() {
-  return transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
-                          &tile_check_, &memory_check_, &memory_check_, this});
+  Watchers watchers = transit_.around({this, this, this, this, this, this, this, this, this, this, this, this,
+                                       &tile_check_, &memory_check_, &memory_check_, this});
+  watchers.leaps = this;
+  return watchers;
 }
 
 void Checker::begin_pass(int samples, int most, std::int64_t frame, const Window& window) {

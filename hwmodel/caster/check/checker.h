@@ -28,9 +28,11 @@ class Checker final : FifoWatcher<TileOrder>,
                       FifoWatcher<PressedToken>,
                       FifoWatcher<PixelToken>,
                       FifoWatcher<LineRequest>,
-                      FifoWatcher<PassedToken> {
+                      FifoWatcher<PassedToken>,
+                      LeapWatcher {
  public:
-  Checker(const Expectation& expectation, RayCaster& caster, int width, int height);
+  Checker(const Expectation& expectation, const Registers& registers, RayCaster& caster, int width,
+          int height);
 
   Watchers watchers();
   // The first pass has one sample of each pixel. The second one has several, of the pixels that differ from a
@@ -75,6 +77,9 @@ class Checker final : FifoWatcher<TileOrder>,
   void left(int, std::int64_t, const LineRequest*) override {}
   void left(int, std::int64_t, const PassedToken*) override {}
 
+  // A leap may leave out only samples of which it is proved that they are air (leap_check.h).
+  void leapt(const LeapTaken& leap) override;
+
   void tell(Difference difference);
   ExpectedRay& ray(const RayId& id);
   ExpectedRay& shaded(const RayId& id);
@@ -94,6 +99,7 @@ class Checker final : FifoWatcher<TileOrder>,
   void compare_crossing(const RayId& id, const picture::Crossing& expected, const Crossing& actual);
 
   const Expectation& expectation_;
+  const Registers& registers_;
   RayCaster& caster_;
   std::size_t width_;
   int height_, samples_ = 1;

@@ -150,7 +150,7 @@ void PictureRun::draw(const render::PictureScene& scene, const picture::Camera& 
 
 void PictureRun::begin(const render::PictureScene& scene, const picture::Camera& camera,
                        render::Setting setting, const render::Image& expected) {
-  drawing_ = std::make_unique<Drawing>(scene, camera, setting, expected, caster_);
+  drawing_ = std::make_unique<Drawing>(scene, camera, setting, expected, registers_, caster_);
   caster_.watch(options_.compare ? drawing_->checker.watchers() : Watchers{});
   const Window first = drawing_->fast() ? options_.window : with_neighbours(options_.window);
   caster_.draw_only(first);

@@ -112,11 +112,11 @@ class PictureRun {
  private:
   struct Drawing {
     Drawing(const render::PictureScene& scene, const picture::Camera& camera, render::Setting quality,
-            const render::Image& by_software, RayCaster& caster)
+            const render::Image& by_software, const Registers& registers, RayCaster& caster)
         : setting(quality),
           expected(by_software),
           expectation(scene, camera, quality),
-          checker(expectation, caster, by_software.width, by_software.height) {}
+          checker(expectation, registers, caster, by_software.width, by_software.height) {}
     bool fast() const { return setting == render::Setting::fast; }
     int samples() const { return setting == render::Setting::normal ? 8 : 32; }  // in the second pass
     int most() const { return setting == render::Setting::best ? 8 : 16; }

@@ -27,6 +27,7 @@ enum class Fault : std::uint8_t {
   walk_box,
   walk_block,
   walk_rise,
+  walk_margin,
   walk_stale_position,
   walk_passes,
   // These strike the levels.
@@ -46,6 +47,7 @@ enum class Fault : std::uint8_t {
   crossing_halvings,
   crossing_quotient,
   crossing_ends,
+  crossing_stale,
   met_compare,
   met_depth,
   met_eye,

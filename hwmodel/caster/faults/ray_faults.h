@@ -1,7 +1,8 @@
-// Rays begin, step, cross or compare wrongly. The walk's faults strike only where they leave out the first
-// sample in matter, because elsewhere they make no difference.
+// Rays begin, step, cross or compare wrongly. Most faults of the walk strike only where they leave out the
+// first sample in matter, because elsewhere they change no picture.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -64,6 +65,7 @@ class RayFaults : public Planted {
   }
   template <class Context>
   void leaps(const Context& context, Leap leap, std::int64_t& steps) {
+    if (armed(Fault::walk_margin) && leap == Leap::through_air) return lose_margin(context, steps);
     const Fault fault = leap == Leap::to_box         ? Fault::walk_box
                         : leap == Leap::out_of_block ? Fault::walk_block
                                                      : Fault::walk_rise;
@@ -83,6 +85,32 @@ class RayFaults : public Planted {
     if (!matter || !armed(Fault::walk_passes)) return;
     matter = false;
     strike("walk", context.ray.id);
+  }
+
+  // Leaps as if levels were exact. A number that the true bound allows, too, is no fault.
+  template <class Context>
+  void lose_margin(const Context& context, std::int64_t& steps) {
+    const int spacing = registers().camera.spacing;
+    const std::int64_t rise = (-context.level * kRises[context.slope]) >> (28 - spacing);
+    const std::int64_t wrong = std::min(rise + 1, steps_out(context.walker, 1));
+    const std::int64_t room = -context.level - 4 - 3 * context.slope;
+    if (768 * context.slope * (wrong - 1) > room * (1 << spacing))
+      replace("walk", context.ray.id, steps, wrong);
+  }
+
+  // Strikes where the sample before was left out, and the crossing lies so near to it that its level counts.
+  template <class Context>
+  void meets(const Context& context, HitToken& hit) {
+    if (!armed(Fault::crossing_stale) || hit.k < 2 || context.known != hit.k - 2) return;
+    const Vec before = hit.at - hit.ray.ray.step;
+    Bracket right{before, hit.at, level_at(before), hit.level, 0};
+    for (int halved = 0; halved < 3; ++halved) halve(right, level_at(middle_of(right)));
+    if (right.e != 0) return;
+    Bracket wrong = right;
+    wrong.a = hit.before;
+    if (crossing_of(wrong, hit.k).part == crossing_of(right, hit.k).part) return;
+    hit.knows_before = true;
+    strike("crossing", context.ray.id);
   }
 
   void crossed(const HitToken& hit, const Bracket& bracket, Crossing& met) {

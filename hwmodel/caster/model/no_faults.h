@@ -17,12 +17,13 @@ struct NoFaults {
   static void set_up(auto&&...) {}
   static void passes_blocks(auto&&...) {}
   static void grounded(auto&&...) {}
-  // These see a ray that begins its walk, how many samples it leaves out, what it asks for, and if it is in
-  // matter.
+  // These see a ray that begins its walk, how many samples it leaves out, what it asks for, if it is in
+  // matter, and what leaves for the crossing.
   static void begun(auto&&...) {}
   static void leaps(auto&&...) {}
   static void asked(auto&&...) {}
   static void judged(auto&&...) {}
+  static void meets(auto&&...) {}
   // These see how a line is named in the cache of levels, what else may go wrong there, and the fetched
   // words.
   static std::int64_t tag_of(std::int64_t line) { return line; }

@@ -81,6 +81,7 @@ struct Watchers {
   // These watch channels that only clear matter has.
   FifoWatcher<PassedToken>* passed = nullptr;
   FifoWatcher<OnwardToken>* onward = nullptr;
+  LeapWatcher* leaps = nullptr;  // sees the leaps of rays, of which no token tells
 };
 
 class Pipe {

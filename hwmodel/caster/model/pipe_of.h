@@ -88,7 +88,10 @@ class PipeOf final : public Pipe {
          const Configuration& c, int number, Faults faults = {});
 
   void connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) override;
-  void watch(const Watchers& watchers) override { watch_(watchers); }
+  void watch(const Watchers& watchers) override {
+    watch_(watchers);
+    walk_.watch(watchers.leaps);
+  }
   int cycle() override;
   void end_pass() override;
 

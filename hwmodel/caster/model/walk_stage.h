@@ -36,6 +36,18 @@ struct HitToken {
 // Tells why samples are left out.
 enum class Leap : std::uint8_t { to_box, out_of_block, through_air };
 
+// Describes a leap from sample k of a ray to sample k + steps.
+struct LeapTaken {
+  RayId id;
+  Leap why = Leap::to_box;
+  std::int64_t k = 0, steps = 0;
+};
+class LeapWatcher {
+ public:
+  virtual ~LeapWatcher() = default;
+  virtual void leapt(const LeapTaken& leap) = 0;
+};
+
 struct WalkCounts {
   std::int64_t rays = 0, samples = 0, leaps = 0;
 };
@@ -63,6 +75,7 @@ class WalkStage final : public Stage {
   }
   void give_back(int context) { free_.push_back(context); }
   const WalkCounts& counts() const { return counts_; }
+  void watch(LeapWatcher* watcher) { watcher_ = watcher; }
 
  private:
   struct Context {
@@ -151,6 +164,7 @@ class WalkStage final : public Stage {
 
   void advance(Context& context, Leap leap, std::int64_t steps) {
     faults_.leaps(context, leap, steps);
+    if (watcher_ != nullptr) watcher_->leapt({context.ray.id, leap, context.k, steps});
     context.k += steps;
     context.walker.at = context.walker.at + context.walker.step * steps;
   }
@@ -193,9 +207,10 @@ class WalkStage final : public Stage {
     bool matter = token.level >= 0;
     faults_.judged(context, matter);
     if (matter) {
-      *hit_->put() = {token.request.context, context.ray, context.k,
-                      context.walker.at,     token.level, context.known == context.k - 1,
-                      context.level,         context.span};
+      HitToken& hit = *hit_->put();
+      hit = {token.request.context,          context.ray,   context.k,   context.walker.at, token.level,
+             context.known == context.k - 1, context.level, context.span};
+      faults_.meets(context, hit);
       return;
     }
     context.known = context.k;
@@ -218,6 +233,7 @@ class WalkStage final : public Stage {
   std::deque<int> walking_, sampled_, lost_;
   int asked_ = 0;  // samples under way
   WalkCounts counts_;
+  LeapWatcher* watcher_ = nullptr;
   Fifo<GroundedRay>* in_ = nullptr;
   Fifo<LevelRequest>* ask_ = nullptr;
   Fifo<LevelToken>* answer_ = nullptr;

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Some, PlantedInCaster, testing::ValuesIn(some_of(all_fa
 
 // Without a fault these pictures are good. So this test fails if someone plants these bugs in the sources.
 TEST(PlantedInCaster, PicturesThatWereMadeForThemAreGood) {
-  for (const Fault fault : {Fault::walk_box, Fault::walk_block, Fault::cache_tag_bits})
+  for (const Fault fault : {Fault::walk_box, Fault::walk_block, Fault::crossing_stale, Fault::cache_tag_bits})
     for (const Made& made : made_for(fault)) {
       const PictureReport report = verify(made.picture, Fault::none);
       EXPECT_TRUE(report.good()) << made.name << ": " << text_of(report);

@@ -61,6 +61,22 @@ inline Case wide_plate(int seed) {
   return one;
 }
 
+// Makes a slope that is seen straight along the diagonal of the grid. There a level rises nearly as fast as
+// its bound allows: a leap of two samples ends in matter, right behind the surface.
+inline Case slope_seen_along_the_diagonal(int seed) {
+  Case one;
+  one.picture.volume = state::Volume(state::Grid{24, 24, 24});
+  worlds::for_each(worlds::whole(one.picture.volume.grid), [&](int x, int y, int z) {
+    const int height = 34 - x - y - z;
+    if (height >= 0) put_solid(one.picture.volume, x, y, z, height == 0 ? 300 + 310 * seed : 4096);
+  });
+  one.picture.camera.azimuth = 45;
+  one.picture.camera.elevation = 35.264;
+  one.picture.camera.target = {11, 11, 11};
+  one.picture.camera.width = one.picture.camera.height = 40;
+  return one;
+}
+
 struct Made {
   std::string name;
   Case picture;
@@ -72,6 +88,8 @@ inline std::vector<Made> made_for(Fault fault) {
     const std::string number = ' ' + std::to_string(seed);
     if (fault == Fault::walk_box) all.push_back({"wall" + number, wall_at_border(seed, false)});
     if (fault == Fault::walk_block) all.push_back({"wall and corners" + number, wall_at_border(seed, true)});
+    if (fault == Fault::crossing_stale)
+      all.push_back({"slope" + number, slope_seen_along_the_diagonal(seed)});
     if (fault == Fault::cache_tag_bits && seed < 4) all.push_back({"plate" + number, wide_plate(seed)});
   }
   return all;
