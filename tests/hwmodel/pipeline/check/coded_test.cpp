@@ -143,6 +143,24 @@ void hostile_worlds(int begin, int end) {
 TEST(Code, HostileWorldsWithTilesAndStalls) { hostile_worlds(0, 16); }
 TEST(CodeLong, HostileWorldsWithTilesAndStalls) { hostile_worlds(16, 50); }
 
+// The last block of each column has a token of air alone, and any number of lanes beyond the grid.
+TEST(Code, EveryRestOfTheWidthByTheLanes) {
+  for (const int lanes : {2, 4, 8, 16})
+    for (int rest = 0; rest < lanes; ++rest) {
+      const state::Grid grid{lanes + (rest == 0 ? lanes : rest), 4, 3};
+      const rule::Law law = rest % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
+      Start start = hostile_start(static_cast<std::uint64_t>(100 * lanes + rest), law, grid);
+      worlds::for_each({lanes, 2, 0, grid.x, 4, grid.z}, [&](int x, int y, int z) {
+        for (state::BitPlane* mask : {&start.volume.solid, &start.volume.liquid, &start.volume.inert})
+          mask->set(x, y, z, false);
+        worlds::put(start.volume, x, y, z, 0);
+      });
+      Configuration c{lanes, 1, 2, 0};
+      c.coded = true;
+      ASSERT_TRUE(agrees(start, c, 2)) << grid.x << " cells, " << lanes << " lanes";
+    }
+}
+
 // The crop runs with several lanes and cascades, with and without the code, and in tiles if it is wide
 // enough.
 void crop_of_scene(const std::string& name, std::uint32_t step) {
