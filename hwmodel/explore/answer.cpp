@@ -38,6 +38,7 @@ Next next_of(const Question& question, const Swept& swept, std::int64_t speed, R
   Next next;
   next.limit = speed;
   const std::int64_t there = question.device.usable()[r];
+  if (there == 0) return next;  // nobody adds blocks of a kind that the device does not have
   for (std::size_t i = 0; i < swept.points.size(); ++i) {
     const Point& point = swept.points[i];
     if (point.speed <= speed) continue;

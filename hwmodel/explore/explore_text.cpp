@@ -47,7 +47,7 @@ std::string row_of(const Explored& explored, std::size_t at) {
                   p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile), p.clock_mhz, giga(p.speed));
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
   text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
-                      percent(p.on_memory - p.cycles, p.on_memory));
+                      percent(std::max<std::int64_t>(0, p.on_memory - p.cycles), p.on_memory));
   const Checked* checked = checked_at(explored, at);
   if (checked == nullptr)
     return text + (beyond_of(explored, p).empty() ? "predicted\n" : "predicted, not within its bounds\n");
@@ -124,6 +124,7 @@ std::string next_text(const Explored& explored) {
   const std::int64_t best = explored.swept.points[*explored.answer.best].speed;
   std::string text;
   for (const Resource r : kEachResource) {
+    if (explored.question.device.usable()[r] == 0) continue;
     const Next& next = explored.answer.next[r];
     const auto unit = unit_of(r);
     if (next.point)

@@ -94,6 +94,15 @@ class Explore(unittest.TestCase):
                 self.assertEqual({c["falls"] for c in report["contents"]}, {at == "[6, 20, 6]"})
                 self.compare(report, rows, 97)
 
+    def test_nothing_is_said_of_parts_that_a_device_does_not_have(self):
+        for device, memory, none in (("ecp5-85f", "none", []), ("zu7ev", "ddr4-2400", ["--set", "device.uram=0"])):
+            report, _, said = self.explore(self.scene, "--device", device, "--memory", memory, "--points", 0, "--set",
+                                           "device.bram=40", *none)
+            self.assertNotIn("more URAM", said)
+            self.assertIn("more BRAM", said)
+            self.assertIsNone(report["next"]["uram"]["more"])
+            self.assertNotIn(" -0.0 ", said)
+
     def test_the_front_is_what_nothing_beats(self):
         report, rows, _ = self.explore(self.scene, "--device", "ecp5-85f", "--memory", "none", "--points", 0,
                                        "--set", "hw.lanes=4")
