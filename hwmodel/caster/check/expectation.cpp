@@ -9,6 +9,7 @@
 #include "render/ground/watched_ground.h"
 #include "render/packet/tables.h"
 #include "render/rule/crossing.h"
+#include "render/rule/ground.h"
 #include "render/rule/nearer.h"
 #include "render/rule/normal.h"
 #include "render/rule/shade.h"
@@ -94,6 +95,11 @@ ExpectedRay Expectation::ray(std::int64_t across, std::int64_t down) const {
 
 std::int32_t Expectation::sample(picture::Vector position) const {
   return picture::sample(scene_.levels, position);
+}
+
+std::int64_t Expectation::above_ground(picture::Vector position) const {
+  return picture::above_ground(render::columns_of(scene_.ground, scene_.ground.drawn()),
+                               scene_.ground.cells(), position);
 }
 
 void Expectation::shade(ExpectedRay& ray) const {

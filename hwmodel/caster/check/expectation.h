@@ -51,6 +51,7 @@ class Expectation {
   picture::Vector at(const ExpectedRay& ray, std::int64_t k) const { return ray.ray.at(k); }
   std::int32_t level(std::int64_t x, std::int64_t y, std::int64_t z) const { return scene_.levels(x, y, z); }
   std::int32_t sample(picture::Vector position) const;
+  std::int64_t above_ground(picture::Vector position) const;  // 2^-12 cells
   const picture::View& view() const { return view_; }
   bool clear() const { return scene_.paint.clear; }
 

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "hwmodel/caster/model/leap.h"
 #include "hwmodel/caster/model/registers.h"
-#include "hwmodel/caster/model/walk_stage.h"
 
 namespace voxmelt::hwmodel::raycast {
 
@@ -16,7 +16,16 @@ struct SampleOnRay {
   std::int64_t level = 0;
 };
 
-// Returns how many samples a leap may go at most.
+// Returns how many samples a leap of the walk may go at most.
 std::int64_t longest_leap(const SkipMap& skip, int spacing, Leap why, const SampleOnRay& sample);
+
+// Is a place of a ray in search of the ground, and the last sample that is not behind it.
+struct PlaceOverGround {
+  Vec at, sample, step;
+  std::int64_t above = 0;  // the ground, in 2^-12 cells
+};
+
+// Returns how many samples a leap over ground may go at most, from that sample on.
+std::int64_t longest_leap(const GroundBlocks& blocks, Leap why, const PlaceOverGround& place);
 
 }  // namespace voxmelt::hwmodel::raycast

@@ -14,6 +14,8 @@ constexpr std::array kFaults{
     FaultInfo{set_up_floor, "set-up-floor", "set-up", "the step of a ray is rounded down"},
     FaultInfo{ground_bound, "ground-bound", "ground",
               "a bound of heights is too low: a sample in the ground is left out"},
+    FaultInfo{ground_margin, "ground-margin", "ground",
+              "the slopes of a block have no margin for roundings; what is left out may be above the ground"},
     FaultInfo{ground_lost, "ground-lost", "ground", "a ray passes the ground that it meets"},
     FaultInfo{ground_part, "ground-part", "ground", "the search for the ground ends one part too late"},
     FaultInfo{ground_face, "ground-face", "ground", "the low side of the slab is taken for the high one"},

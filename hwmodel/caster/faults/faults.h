@@ -19,6 +19,7 @@ enum class Fault : std::uint8_t {
   set_up_sample,
   set_up_floor,
   ground_bound,
+  ground_margin,
   ground_lost,
   ground_part,
   ground_face,

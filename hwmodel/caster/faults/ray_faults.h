@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hwmodel/caster/faults/planted.h"
+#include "hwmodel/caster/model/ground_blocks.h"
 #include "hwmodel/caster/model/walk_stage.h"
 
 namespace voxmelt::hwmodel::raycast {
@@ -38,6 +39,19 @@ class RayFaults : public Planted {
     if (!armed(Fault::ground_bound) || samples || !in_ground(at_part(ray.ray, part))) return;
     samples = 0;
     strike("ground", ray.id);
+  }
+  // Leaps as if heights were exact. A number that the true bound allows, too, is no fault.
+  void passes_slopes(const GroundedRay& ray, const Searcher& searcher, Vec p, std::int64_t above,
+                     std::int64_t& samples) {
+    if (!armed(Fault::ground_margin)) return;
+    const GroundBlock& block = registers().ground.blocks.fine_at(p);
+    const Vec slopes{std::int64_t{block.slope_x} << kBoundShift, 0,
+                     std::int64_t{block.slope_z} << kBoundShift};
+    const std::int64_t nearer = approach_of(slopes, searcher.step);
+    if (nearer <= 0) return;
+    const std::int64_t wrong = std::min((above << 20) / nearer, samples_in_block(searcher, p, kFineBits));
+    const std::int64_t room = (above << 20) - ((slopes.x + slopes.z) << 12) - (std::int64_t{1} << 22);
+    if (wrong * nearer > room) replace("ground", ray.id, samples, wrong);
   }
   void grounded(GroundedRay& ray) {
     GroundHit& ground = ray.ground;

@@ -13,6 +13,7 @@
 
 #include "hwmodel/caster/model/ground.h"
 #include "hwmodel/caster/model/ground_blocks.h"
+#include "hwmodel/caster/model/leap.h"
 #include "hwmodel/caster/model/no_faults.h"
 #include "hwmodel/caster/model/registers.h"
 #include "hwmodel/caster/model/stage.h"
@@ -36,6 +37,7 @@ class GroundStage final : public Stage {
     answer_ = &answer;
     out_ = &out;
   }
+  void watch(LeapWatcher* watcher) { watcher_ = watcher; }
 
  private:
   struct Search {
@@ -110,12 +112,13 @@ class GroundStage final : public Stage {
         samples_above(registers_.ground.blocks, search.searcher, at_part(search.ray.ray, search.part));
     faults_.passes_blocks(search.ray, search.part, samples);
     if (!samples) return ready_.push_back(i);
-    go_on(i, *samples);
+    go_on(i, *samples, Leap::over_blocks);
   }
   // Goes on to the sample behind those that are left out.
-  void go_on(int i, std::int64_t samples) {
+  void go_on(int i, std::int64_t samples, Leap leap) {
     Search& search = at(i);
     if (search.part == search.parts.last) return done_.push_back(i);
+    if (watcher_ != nullptr) watcher_->leapt({search.ray.id, leap, search.part, samples + 1});
     search.part = std::min(((search.part >> 8) + 1 + samples) << 8, search.parts.last);
     passing_.push_back(i);
   }
@@ -145,7 +148,9 @@ class GroundStage final : public Stage {
     const Vec p = at_part(search.ray.ray, search.part);
     const std::int64_t above = (p.y >> 8) - columns.height(&Column::drawn, p.x, p.z);
     if (above < 0) return bisect(i, columns);
-    go_on(i, samples_over_slopes(registers_.ground.blocks, search.searcher, p, above));
+    std::int64_t samples = samples_over_slopes(registers_.ground.blocks, search.searcher, p, above);
+    faults_.passes_slopes(search.ray, search.searcher, p, above, samples);
+    go_on(i, samples, Leap::over_slopes);
   }
   void bisect(int i, const NearColumns& columns) {
     Search& search = at(i);
@@ -181,6 +186,7 @@ class GroundStage final : public Stage {
   std::vector<Search> rays_;
   std::vector<int> free_;
   std::deque<int> passing_, ready_, done_;
+  LeapWatcher* watcher_ = nullptr;
   Fifo<RayToken>* in_ = nullptr;
   Fifo<ClampedRequest>* ask_ = nullptr;
   Fifo<ColumnGather::Out>* answer_ = nullptr;

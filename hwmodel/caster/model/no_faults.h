@@ -12,10 +12,11 @@ struct NoFaults {
   static void made(auto&&...) {}
   static void connected(auto&&...) {}
   // These see the pixels that tiles will draw, the ray that leaves the set-up, how many samples the ground
-  // leaves out, and what the ray met there.
+  // leaves out by its blocks and by their slopes, and what the ray met there.
   static void chosen(auto&&...) {}
   static void set_up(auto&&...) {}
   static void passes_blocks(auto&&...) {}
+  static void passes_slopes(auto&&...) {}
   static void grounded(auto&&...) {}
   // These see a ray that begins its walk, how many samples it leaves out, what it asks for, if it is in
   // matter, and what leaves for the crossing.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hwmodel/caster/model/configuration.h"
+#include "hwmodel/caster/model/leap.h"
 #include "hwmodel/caster/model/memory_port.h"
 #include "hwmodel/caster/model/tile_stages.h"
 #include "hwmodel/caster/model/walk_stage.h"

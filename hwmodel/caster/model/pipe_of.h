@@ -90,6 +90,7 @@ class PipeOf final : public Pipe {
   void connect(Fifo<TileJob>& tiles, Fifo<LineRequest>& to_memory, Fifo<LineReply>& replies) override;
   void watch(const Watchers& watchers) override {
     watch_(watchers);
+    ground_.watch(watchers.leaps);
     walk_.watch(watchers.leaps);
   }
   int cycle() override;

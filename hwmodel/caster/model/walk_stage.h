@@ -9,6 +9,7 @@
 #include <iterator>
 #include <vector>
 
+#include "hwmodel/caster/model/leap.h"
 #include "hwmodel/caster/model/no_faults.h"
 #include "hwmodel/caster/model/registers.h"
 #include "hwmodel/caster/model/stage.h"
@@ -31,21 +32,6 @@ struct HitToken {
   // `before` is the level of sample k + 1.
   std::int16_t span = 0;
   bool leaves = false;
-};
-
-// Tells why samples are left out.
-enum class Leap : std::uint8_t { to_box, out_of_block, through_air };
-
-// Describes a leap from sample k of a ray to sample k + steps.
-struct LeapTaken {
-  RayId id;
-  Leap why = Leap::to_box;
-  std::int64_t k = 0, steps = 0;
-};
-class LeapWatcher {
- public:
-  virtual ~LeapWatcher() = default;
-  virtual void leapt(const LeapTaken& leap) = 0;
 };
 
 struct WalkCounts {

@@ -101,5 +101,58 @@ TEST(Leaps, AreOfNoBlockThatDoesNotAllowThem) {
     EXPECT_EQ(longest_leap(same_everywhere(260), 2, why, beyond), 0) << "there is no block";
 }
 
+// The same bound and slopes hold for 64 x 64 fine blocks.
+GroundBlocks ground_everywhere(GroundBlock block, std::int32_t coarse) {
+  GroundBlocks blocks;
+  blocks.x = blocks.z = 64;
+  blocks.fine.assign(64 * 64, block);
+  blocks.coarse.assign(16 * 16, coarse);
+  return blocks;
+}
+
+// All samples before the longest leap lie above the bound, in the block in which the ray is.
+TEST(Leaps, OverGroundStayAboveAllThatABlockHolds) {
+  worlds::Random random(43);
+  int long_ones = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const std::int64_t highest = random.between(1, 300), height = highest << 14;
+    const bool coarse = n % 2 == 0;  // else the coarse block reaches the sky
+    const GroundBlocks blocks = ground_everywhere({static_cast<std::int32_t>(highest), 0, 0},
+                                                  coarse ? static_cast<std::int32_t>(highest) : 1 << 16);
+    const std::int64_t side = coarse ? 16 * kCellUnits : 4 * kCellUnits;
+    Vec at = any_vec(random, 100 * kCellUnits, 101 * kCellUnits),
+        step = any_vec(random, -kCellUnits / 4, kCellUnits / 4);
+    at.y = height + random.between(-1000, 4 * kCellUnits);
+    const auto above = [&](std::int64_t k) {
+      const Vec q = at + step * k;
+      return q.y >= height && q.x / side == at.x / side && q.z / side == at.z / side;
+    };
+    std::int64_t first = 0;
+    while (above(first) && first < 100'000) ++first;
+    long_ones += first > 5;
+    ASSERT_EQ(std::min<std::int64_t>(100'000, longest_leap(blocks, Leap::over_blocks, {at, at, step})), first)
+        << n;
+  }
+  EXPECT_GT(long_ones, 200);
+}
+
+// By hand: the ground rises by 1 cell a cell along x, and a ray comes nearer by 1/4 of a cell a sample, which
+// is 1024 of 2^-12 cells. Roundings take 4 of them, and 2 x 4096 / 512 = 16 more.
+TEST(Leaps, OverGroundStayAboveItsSlopes) {
+  const GroundBlocks blocks = ground_everywhere({1 << 16, 64, 0}, 1 << 16);
+  const Vec west{100 * kCellUnits, 90 * kCellUnits, 100 * kCellUnits};
+  const auto leap = [&](std::int64_t above, Vec step) {
+    return longest_leap(blocks, Leap::over_slopes, {west, west, step, above});
+  };
+  const Vec level{kCellUnits / 4, 0, 0}, up{kCellUnits / 4, kCellUnits / 4, 0};
+  EXPECT_EQ(leap(-1, level), 0) << "it lies in the ground";
+  EXPECT_EQ(leap(20, level), 1);
+  EXPECT_EQ(leap(20 + 1023, level), 1);
+  EXPECT_EQ(leap(20 + 1024, level), 2);
+  EXPECT_EQ(leap(20 + 2048, level), 3);
+  EXPECT_EQ(leap(20 + 900 * 1024, level), 16) << "the block ends";
+  EXPECT_EQ(leap(0, up), 16) << "it never comes nearer";
+}
+
 }  // namespace
 }  // namespace voxmelt::hwmodel::raycast
