@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/difference.h"
+#include "kernel/automaton/state/ledger_difference.h"
 
 namespace voxmelt::run {
 namespace {

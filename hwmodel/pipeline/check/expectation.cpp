@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hwmodel/pipeline/check/falling.h"
+#include "kernel/automaton/state/ledger_difference.h"
 #include "kernel/run/sleep_audit.h"
 
 namespace voxmelt::hwmodel {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "kernel/automaton/state/ledger_terms.h"
@@ -51,13 +50,6 @@ struct Ledger {
   void book(const LedgerTerms<std::int64_t>& terms);
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
-
-// Names the first term in which two ledgers differ ("mass: removed"), or none.
-struct LedgerDifference {
-  std::string term;
-  Sum expected = 0, actual = 0;
-};
-std::optional<LedgerDifference> first_difference(const Ledger& expected, const Ledger& actual);
 
 // Is what the state holds minus what the books expect. All are zero when they balance.
 struct Drift {
