@@ -25,7 +25,7 @@ Fate plain_fate(const Opaque& opaque, const Ray& ray) {
 
 Fate two_level_fate(const Opaque& opaque, const Gaps& gaps, const Ray& ray) {
   if (!opaque.contains(ray.cell)) return kSees;
-  return with_walk(ray, [&](auto& walk) { return follow(opaque, gaps, walk); });
+  return with_walk(ray, [&](auto& walk) { return follow_to_end(opaque, gaps, walk); });
 }
 
 void PlainCaster::cast(const Opaque& opaque, std::span<const Ray> rays, std::span<Fate> fates) const {

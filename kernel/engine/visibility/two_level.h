@@ -12,28 +12,17 @@
 
 namespace voxmelt::visibility {
 
-// Counts the bricks on the longest path. A straight ray never turns back, so each further brick on its way is
-// the next one along an axis at least.
-inline int longest_path(const state::Grid& bricks) { return bricks.x + bricks.y + bricks.z - 2; }
-
-[[noreturn]] inline void stands_still(const Cell& cell) {
-  throw std::logic_error(
-      "a ray of visibility does not come on: it has met more bricks than lie on a line, at cell (" +
-      std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ")");
-}
-
-// Follows a walk that begins in the grid. It returns the opaque cell that it meets, or kSees. Throws
-// std::logic_error if the walk does not come on.
+// Follows a walk that begins in the grid through at most `most` bricks and gaps. It returns the opaque cell
+// that it meets, or kSees. With kSees, `ends` tells if it has come to its end, or out of the grid.
 template <class Walk>
-Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk) {
+Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk, int most, bool& ends) {
   const std::size_t octant = walk.octant();
-  int left = longest_path(opaque.bricks());
-  for (bool ends = false; !ends; --left) {
-    if (left == 0) stands_still(walk.cell());
+  for (ends = false; most > 0 && !ends; --most) {
     const std::size_t brick = opaque.brick_at(walk.cell());
     const int gap = gaps.at(octant, brick);
-    if (gap == Gaps::kEndless) return kSees;
-    if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
+    if (gap == Gaps::kEndless) {
+      ends = true;
+    } else if (gap > 0 || opaque.clear_ahead(brick, walk.cell(), octant)) {
       ends = !walk.leave(std::max(gap, 1));
     } else if (const Fate fate = meet_in_brick(opaque, brick, walk, ends); fate != kSees) {
       return fate;
@@ -43,6 +32,24 @@ Fate follow(const Opaque& opaque, const Gaps& gaps, Walk& walk) {
     ends |= !opaque.bricks().contains(cell[0] >> 3, cell[1] >> 3, cell[2] >> 3);
   }
   return kSees;
+}
+
+// Counts the bricks on the longest path. A straight ray never turns back, so each further brick on its way is
+// the next one along an axis at least.
+inline int longest_path(const state::Grid& bricks) { return bricks.x + bricks.y + bricks.z - 2; }
+
+// Follows a walk to its end. Throws std::logic_error if it does not come on, and would go on for ever.
+template <class Walk>
+Fate follow_to_end(const Opaque& opaque, const Gaps& gaps, Walk& walk) {
+  bool ends = false;
+  const Fate fate = follow(opaque, gaps, walk, longest_path(opaque.bricks()), ends);
+  if (fate == kSees && !ends) {
+    const Cell& at = walk.cell();
+    throw std::logic_error(
+        "a ray of visibility does not come on: it met more bricks than lie on a line, at cell (" +
+        std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")");
+  }
+  return fate;
 }
 
 }  // namespace voxmelt::visibility

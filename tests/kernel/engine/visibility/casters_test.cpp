@@ -196,7 +196,7 @@ class WalkThatStandsStill {
 TEST(TwoLevel, AWalkThatStandsStillIsAnError) {
   const Seen seen(cluttered_world());
   WalkThatStandsStill walk;
-  EXPECT_THROW(follow(seen.opaque, seen.gaps, walk), std::logic_error);
+  EXPECT_THROW(follow_to_end(seen.opaque, seen.gaps, walk), std::logic_error);
   EXPECT_EQ(walk.asked(), 5 + 5 + 5 - 2) << "once for each brick on the longest path";
 }
 
