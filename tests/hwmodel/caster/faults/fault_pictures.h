@@ -62,18 +62,20 @@ inline Case wide_plate(int seed) {
 }
 
 // Makes a slope that is seen straight along the diagonal of the grid. There a level rises nearly as fast as
-// its bound allows: a leap of two samples ends in matter, right behind the surface.
+// its bound allows: a leap of two samples ends in matter, right behind the surface. With 27 pixels a step is
+// nearly as long as it may be: 32 x 27 x 9459 is 0.97 of a power of two, and 9459 is 2^14 over the root of 3.
 inline Case slope_seen_along_the_diagonal(int seed) {
   Case one;
   one.picture.volume = state::Volume(state::Grid{24, 24, 24});
   worlds::for_each(worlds::whole(one.picture.volume.grid), [&](int x, int y, int z) {
-    const int height = 34 - x - y - z;
-    if (height >= 0) put_solid(one.picture.volume, x, y, z, height == 0 ? 300 + 310 * seed : 4096);
+    const int depth = 410 + 2 * seed - 10 * (x + y + z);  // 152 of them are a full cell
+    if (depth > 0) put_solid(one.picture.volume, x, y, z, std::min(4096, 4096 * depth / 152));
   });
   one.picture.camera.azimuth = 45;
-  one.picture.camera.elevation = 35.264;
+  one.picture.camera.elevation = 33.5;  // a little less than the diagonal's: rays meet it between samples
+  one.picture.camera.field_of_view = 2;
   one.picture.camera.target = {11, 11, 11};
-  one.picture.camera.width = one.picture.camera.height = 40;
+  one.picture.camera.width = one.picture.camera.height = 27;
   return one;
 }
 
