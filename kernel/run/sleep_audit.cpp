@@ -135,11 +135,10 @@ std::optional<SleepFault> SleepAudit::compare(step::Phase phase, const step::Awa
 }
 
 void SleepAudit::count(const step::AwakeTiles& awake) {
-  if (awake.tiles.empty()) return;
-  const std::int64_t words = (volume().grid.x + 63) / 64;
+  const int words = (volume().grid.x + 63) / 64;
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - words);  // bits beyond the grid mean nothing
   tiles_ += words * static_cast<std::int64_t>(awake.tiles.size());
-  asleep_ += words * static_cast<std::int64_t>(awake.tiles.size());
-  for (const std::uint64_t row : awake.tiles) asleep_ -= std::popcount(row);
+  for (const std::uint64_t row : awake.tiles) asleep_ += std::popcount(~row & all);
 }
 
 }  // namespace voxmelt::run

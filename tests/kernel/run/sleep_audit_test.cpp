@@ -19,7 +19,7 @@ using worlds::Grid;
 using worlds::Parameters;
 using worlds::Volume;
 
-constexpr Grid kWide{190, 6, 5};
+constexpr Grid kWide{190, 6, 12};
 
 Parameters plain(rule::Law law) {
   Parameters p;
@@ -29,11 +29,12 @@ Parameters plain(rule::Law law) {
 }
 
 // Heaps stand at the borders of tiles, on the side towards high x, so that they flow west over them.
-Volume heaps_at_borders() {
+Volume heaps_at_borders(rule::Law law) {
   Volume v(kWide);
+  const int energy = law == rule::Law::paper ? 4096 : 0;
   for (const int x : {64, 128})
     worlds::for_each({x, 0, 1, x + 3, 4, 4},
-                     [&](int cx, int cy, int cz) { worlds::put(v, cx, cy, cz, 4096); });
+                     [&](int cx, int cy, int cz) { worlds::put(v, cx, cy, cz, 4096, energy); });
   return v;
 }
 
@@ -89,7 +90,7 @@ std::optional<SleepFault> audit(const Parameters& parameters, const Volume& star
 TEST(SleepAudit, FindsNothingInTheKernels) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
     std::int64_t asleep = 0;
-    const auto fault = audit(plain(law), heaps_at_borders(), implementations().widest(), 60, &asleep);
+    const auto fault = audit(plain(law), heaps_at_borders(law), implementations().widest(), 60, &asleep);
     EXPECT_FALSE(fault) << fault->text();
     EXPECT_GT(asleep, 500);
   }
@@ -119,7 +120,7 @@ class ForgetsToFlow final : public Wrong {
 };
 TEST(SleepAudit, NamesStepPhaseAndCell) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
-    const auto fault = audit(plain(law), heaps_at_borders(), as_implementation<ForgetsToFlow>(), 10);
+    const auto fault = audit(plain(law), heaps_at_borders(law), as_implementation<ForgetsToFlow>(), 10);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->kind, SleepFault::Kind::cell);
     EXPECT_EQ(fault->step, 103u);
@@ -136,8 +137,8 @@ class BooksTooMuch final : public Wrong {
   }
 };
 TEST(SleepAudit, NamesTheTermOfTheBooks) {
-  const auto fault =
-      audit(plain(rule::Law::paper), heaps_at_borders(), as_implementation<BooksTooMuch>(), 10);
+  const auto fault = audit(plain(rule::Law::paper), heaps_at_borders(rule::Law::paper),
+                           as_implementation<BooksTooMuch>(), 10);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->kind, SleepFault::Kind::books);
   EXPECT_EQ(fault->step, 102u);
@@ -155,7 +156,7 @@ class ForgetsTheWest final : public Wrong {
 };
 TEST(SleepAudit, NamesACellThatSleepsBesideAChange) {
   for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
-    const auto fault = audit(plain(law), heaps_at_borders(), as_implementation<ForgetsTheWest>(), 10);
+    const auto fault = audit(plain(law), heaps_at_borders(law), as_implementation<ForgetsTheWest>(), 10);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->kind, SleepFault::Kind::beside);
     EXPECT_EQ(fault->x, 63) << fault->text();

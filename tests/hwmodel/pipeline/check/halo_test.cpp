@@ -49,11 +49,24 @@ int farthest(const Start& start, const state::Volume& other, int plane) {
   return far;
 }
 
+// Lets shares depend on the pattern of the giver, and so on the neighbours of a neighbour.
+void give_by_pattern(worlds::Random& random, rule::Flow& flow) {
+  flow.paper.neighbours = 4;
+  flow.paper.use_table = true;
+  for (auto& row : flow.paper.table)
+    for (std::uint16_t& share : row) share = static_cast<std::uint16_t>(random.below(16384));
+  flow.paper.threshold = 0;
+  flow.paper.margin = 0;
+  flow.paper.support = false;
+}
+
 // Hostile worlds are sorted by law, conduction and sub-steps. In each kind some world is changed as far away
-// as the check says, and none farther.
+// as the check says, and none farther. Heat goes the last cell only by a chain of chances: it melts a cell
+// just now, or is carried in each of several sub-steps.
 TEST(Halo, AStepDependsOnWhatAChangeReaches) {
   struct Reach {
     int said = 0, seen = 0;
+    bool chancy = false;
   };
   std::map<std::string, Reach> kinds;
   constexpr int kPlane = 10;
@@ -69,6 +82,11 @@ TEST(Halo, AStepDependsOnWhatAChangeReaches) {
       p.flow.viscous.stages_max = 1;
     }
     worlds::Random random(seed + 5);
+    if (law == rule::Law::paper) give_by_pattern(random, p.flow);
+    if (law == rule::Law::viscous) {
+      p.flow.viscous.mobility = 819200000;
+      p.flow.viscous.yield = 0;
+    }
     const state::Volume other = worlds::hostile_volume(random, p, start.volume.grid);
     const Design design{p, {start.volume.grid, 1}, substeps};
     const std::string heat = p.heat.enabled ? std::to_string(p.heat.neighbours) : "cold";
@@ -77,13 +95,14 @@ TEST(Halo, AStepDependsOnWhatAChangeReaches) {
     Reach& reach =
         kinds[std::to_string(static_cast<int>(law)) + ' ' + heat + sides + ' ' + std::to_string(substeps)];
     reach.said = dependence_of_step(design);
+    reach.chancy = (substeps > 1 || law == rule::Law::paper) && p.heat.enabled;
     EXPECT_EQ(reach_of_step(design), reach.said) << "the machine's own list, " << start.name;
     const int seen = farthest(start, other, kPlane);
     ASSERT_LE(seen, reach.said) << start.name;
     reach.seen = std::max(reach.seen, seen);
   }
   EXPECT_GE(kinds.size(), 16u);
-  for (const auto& [kind, reach] : kinds) EXPECT_EQ(reach.seen, reach.said) << kind;
+  for (const auto& [kind, reach] : kinds) EXPECT_GE(reach.seen, reach.said - (reach.chancy ? 1 : 0)) << kind;
 }
 
 // Configurations give every rest of the reach by the lanes. One block less than the halo is too narrow.
