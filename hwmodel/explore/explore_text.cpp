@@ -17,7 +17,10 @@ namespace voxmelt::hwmodel::explore {
 namespace {
 
 double percent(std::int64_t part, std::int64_t whole) { return ratio(100 * part, whole); }
-double gain(std::int64_t speed, std::int64_t than) { return percent(speed - than, than); }
+// More of anything need not be used, so it never costs. Speeds are rounded.
+double gain(std::int64_t speed, std::int64_t than) {
+  return percent(std::max<std::int64_t>(0, speed - than), than);
+}
 std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<double>(speed) * 1e-6); }
 
 std::string design_of(const Point& p) {

@@ -97,7 +97,7 @@ class Explore(unittest.TestCase):
     def test_nothing_is_said_of_parts_that_a_device_does_not_have(self):
         for device, memory, none in (("ecp5-85f", "none", []), ("zu7ev", "ddr4-2400", ["--set", "device.uram=0"])):
             report, _, said = self.explore(self.scene, "--device", device, "--memory", memory, "--points", 0, "--set",
-                                           "device.bram=40", *none)
+                                           "device.bram=40", "--set", "hw.lanes=2", *none)
             self.assertNotIn("more URAM", said)
             self.assertIn("more BRAM", said)
             self.assertIsNone(report["next"]["uram"]["more"])
