@@ -1,6 +1,7 @@
 // Faults of the ray caster strike in these pictures: some are hostile, and some are made for a fault.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
