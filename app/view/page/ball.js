@@ -19,7 +19,7 @@ export class Ball {
     this.ring.setAttribute("class", "ball");
     handles.append(this.ring);
     for (const tool of ["pour", "carve"]) byId(tool).addEventListener("click", () => this.choose(tool));
-    byId("ball-radius").addEventListener("input", () => this.draw());
+    for (const one of ["ball-radius", "ball-temperature"]) byId(one).addEventListener("input", () => this.draw());
     const listen = (name, what) => canvas.addEventListener(name, what, { capture: true });
     listen("pointerdown", (event) => this.press(event));
     listen("pointermove", (event) => this.move(event));
@@ -40,6 +40,8 @@ export class Ball {
     this.ask();
     this.draw();
   }
+
+  end() { if (this.tool) this.choose(this.tool); }
 
   // The plain pointer is the tool's. With shift, or the right button, it moves the camera as ever.
   press(event) {
@@ -85,6 +87,7 @@ export class Ball {
   draw() {
     const box = this.canvas.getBoundingClientRect();
     byId("ball-size").textContent = `${byId("ball-radius").value} cells`;
+    byId("ball-heat").textContent = byId("ball-temperature").value;
     const at = this.tool && this.place && this.camera() && project(this.camera(), this.place, box.width, box.height);
     this.ring.style.display = at ? "" : "none";
     if (!at) return;

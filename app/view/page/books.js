@@ -20,8 +20,10 @@ export class Books {
     byId("drift").textContent = wrong.length === 0 ? "All ledgers balance: the drift is 0."
       : `The ledgers drift: ${wrong.map(([name, value]) => `${name} ${value}`).join(", ")}.`;
     byId("drift").classList.toggle("wrong", wrong.length > 0);
-    byId("loose").textContent = books.loose_cells === 0 ? "Nothing is loose."
-      : `${books.loose_cells.toLocaleString("en")} solid cells are loose: nothing holds them.`;
+    const loose = books.loose_cells;
+    byId("loose").textContent = `Step ${books.step}: ` + (loose === 0 ? "nothing is loose."
+      : `${loose.toLocaleString("en")} solid cell${loose > 1 ? "s are" : " is"} loose: nothing holds ${loose > 1 ? "them" : "it"}.`);
+    byId("loose").classList.toggle("notable", loose > 0);
     byId("memory").textContent = `Earlier states: ${(books.kept_bytes / 1e6).toFixed(1)} MB. ` +
       `Last message: ${(this.bytes / 1e3).toFixed(0)} kB. Frames that this page had no time for: ${this.skipped}.`;
   }

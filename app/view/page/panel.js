@@ -47,7 +47,10 @@ export class Panel {
     byId("restart").addEventListener("click", () => say("restart"));
     byId("home").addEventListener("click", () => say("home"));
     byId("best").addEventListener("click", () => say("best"));
-    byId("speed").addEventListener("input", (event) => say(`speed ${event.target.value}`));
+    byId("speed").addEventListener("input", (event) => {
+      byId("speed-shown").textContent = event.target.value;
+      say(`speed ${event.target.value}`);
+    });
     byId("help").addEventListener("click", () => this.toggleKeys());
     byId("add-source").addEventListener("click", () => {
       const [x, y, z] = this.world.grid;
@@ -74,8 +77,9 @@ export class Panel {
     this.sources.take(world);
     if (this.busy) return;
     this.showList("sources", world.heat_sources, "heat_source", (source, i) => {
-      const key = source.keyframes.at(-1);
-      return [[`${i + 1}. ${kinds[source.kind]}: power`, "power", key.power]];
+      const { at, power } = source.keyframes.at(-1), near = source.kind === "point" || source.kind === "sphere";
+      const place = near ? ` at ${at.map((v) => round(v)).join(", ")}` : "";
+      return [[`${i + 1}. ${kinds[source.kind]}${place}: power`, "power", power]];
     }, (source, i) => [this.sources.kind(source, i), this.sources.power(source, i)], (i) => this.sources.removed(i));
     this.showList("vents", world.vents, "vent", (vent, i) =>
       [[`${i + 1}. rate`, "rate", vent.rate], ["temperature", "temperature", vent.temperature],
@@ -105,7 +109,7 @@ export class Panel {
     this.playing = head.playing;
     byId("play").textContent = head.playing ? "Pause" : "Play";
     byId("play").classList.toggle("on", head.playing);
-    if (document.activeElement !== byId("speed")) byId("speed").value = head.speed;
+    if (document.activeElement !== byId("speed")) byId("speed").value = byId("speed-shown").textContent = head.speed;
     const { step, draw, encode } = head.ms;
     byId("speeds").textContent =
       `Step ${head.step}. ${framesPerSecond.toFixed(0)} frames a second. ` +

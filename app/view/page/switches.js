@@ -32,7 +32,7 @@ export class Sources {
   // What is off has no power. On again, it has the one that it had.
   power(source, i) {
     const key = `heat_source.${i}.power`, on = source.keyframes.at(-1).power > 0;
-    return button(on ? "On" : "Off", `${key}: ${on ? "0" : "as it was"}`, on,
+    return button(on ? "On" : "Off", `${key}: press for ${on ? "0" : "what it was"}`, on,
                   () => this.change(key, on ? 0 : this.powers[i] ?? this.usual(source.kind)));
   }
   usual(kind) { return kind === "sky" || kind === "directional" ? 0.01 : 0.004 * Math.max(...this.grid) ** 2; }

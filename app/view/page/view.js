@@ -310,6 +310,7 @@ addEventListener("keydown", (event) => {
   else if (event.key === "p") byId("pour").click();
   else if (event.key === "c") byId("carve").click();
   else if (event.key === "?") panel.toggleKeys();
+  else if (event.key === "Escape") { byId("keys").hidden = true; ball.end(); place(null); }
   else return;
   event.preventDefault();
 });
