@@ -92,8 +92,9 @@ TEST(Halo, AStepDependsOnWhatAChangeReaches) {
     const std::string heat = p.heat.enabled ? std::to_string(p.heat.neighbours) : "cold";
     const std::string sides =
         law == rule::Law::paper && !p.heat.enabled && design.needs_walls() ? " sides" : "";
-    Reach& reach =
-        kinds[std::to_string(static_cast<int>(law)) + ' ' + heat + sides + ' ' + std::to_string(substeps)];
+    std::string kind = std::to_string(static_cast<int>(law));
+    kind.append(" ").append(heat).append(sides).append(" ").append(std::to_string(substeps));
+    Reach& reach = kinds[kind];
     reach.said = dependence_of_step(design);
     reach.chancy = (substeps > 1 || law == rule::Law::paper) && p.heat.enabled;
     EXPECT_EQ(reach_of_step(design), reach.said) << "the machine's own list, " << start.name;
