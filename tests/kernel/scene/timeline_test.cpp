@@ -11,7 +11,8 @@
 namespace voxmelt::scene {
 namespace {
 
-const std::string kWorld = "[grid]\nsize = [2, 2, 2]\n";
+const std::string kWorld =
+    "[grid]\nsize = [2, 2, 2]\n[[liquid]]\nshape = \"box\"\nsize = [1, 1, 1]\nat = [0.5, 0.5, 0.5]\n";
 
 // Returns each change of a scene as "step: words".
 std::vector<std::string> changes_of(const std::string& text) {

@@ -153,6 +153,7 @@ TEST(Code, EveryRestOfTheWidthByTheLanes) {
       worlds::for_each({lanes, 2, 0, grid.x, 4, grid.z}, [&](int x, int y, int z) {
         for (state::BitPlane* mask : {&start.volume.solid, &start.volume.liquid, &start.volume.inert})
           mask->set(x, y, z, false);
+        if (!start.volume.material.empty()) start.volume.material[start.volume.at(x, y, z)] = 0;
         worlds::put(start.volume, x, y, z, 0);
       });
       Configuration c{lanes, 1, 2, 0};
