@@ -95,7 +95,8 @@ class AgainTest(unittest.TestCase):
                 got = digests(command[0], scene, *command[1:], "--journal", "journal.txt", "--steps", STEPS, "--every", 10,
                               "--implementation", name, "--threads", threads, cwd=self.path)
                 self.assertEqual(got, wanted, f"seed {seed}, {command}, {name}, {threads} threads")
-        self.assertGreater(differ, 0.9 * JOURNALS, "the journals shall change something")
+        # Some come when all has melted and run off.
+        self.assertGreater(differ, 0.8 * JOURNALS, "the journals shall change something")
 
     def test_run_follows_a_journal_and_goes_on_with_it(self):
         for seed, law in ((3, "viscous"), (8, "paper")):
