@@ -220,6 +220,7 @@ bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::i
 Counts Controller::counts(std::int64_t now) const {
   Counts counts = counts_;
   counts.held = held;
+  for (const RankState& rank : ranks_) counts.active += rank.active(now);
   counts.idle += std::max<std::int64_t>(0, now - account_.end());
   return counts;
 }

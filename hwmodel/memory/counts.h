@@ -12,7 +12,8 @@ struct Counts {
   std::int64_t hits = 0, misses = 0, conflicts = 0;
   std::int64_t activates = 0, precharges = 0, refreshes = 0, columns = 0;  // commands
   std::int64_t read_to_write = 0, write_to_read = 0;                       // turnarounds of a channel
-  std::int64_t held = 0;  // requests that waited for an older one to the same burst
+  std::int64_t active = 0;  // cycles of every rank in which a row was open or a refresh ran
+  std::int64_t held = 0;    // requests that waited for an older one to the same burst
 
   // Every cycle of every channel's data bus is one of these. In `idle` cycles no request waits, or the first
   // one is on its way. In `row` cycles a bank opens a row. `spacing` separates column commands in one bank
@@ -37,6 +38,7 @@ struct Counts {
     columns += o.columns;
     read_to_write += o.read_to_write;
     write_to_read += o.write_to_read;
+    active += o.active;
     held += o.held;
     busy += o.busy;
     idle += o.idle;

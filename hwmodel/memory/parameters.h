@@ -4,10 +4,21 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hwmodel/fabric/memory_port.h"
 
 namespace voxmelt::hwmodel::memory {
+
+// One supply of a part, by the currents of its data sheet in mA. Those of a VPP are called IPP there.
+struct Rail {
+  std::string name;
+  double volts = 0;
+  double idd0 = 0;              // rows of one bank open and close every tRC
+  double idd2n = 0, idd3n = 0;  // standby: all banks closed, and all open
+  double idd4r = 0, idd4w = 0;  // reads or writes follow without a gap
+  double idd5 = 0;              // refreshes follow without a gap (IDD5B)
+};
 
 struct Parameters {
   std::string name, title;
@@ -38,6 +49,9 @@ struct Parameters {
   int act_slots = 1, column_slots = 1, pre_slots = 1, ref_slots = 1;  // cycles of the command bus
   bool two_buses = false;    // column commands have a bus of their own
   int interface_cycles = 0;  // further cycles of a read on its way through controller and pins
+
+  int parts = 1;            // that share the wires of a channel
+  std::vector<Rail> rails;  // of each part; none: the sheet has no currents
 
   int beats() const { return transfers / data_rate; }  // data cycles of one column command
   int column_bytes() const { return width_bits / 8 * transfers; }

@@ -38,6 +38,8 @@ class RankState {
     return std::max({bank.activate, groups_[group], four_[oldest_] + p.faw});
   }
   void activate(BankState& bank, int group, int row, std::int64_t now, const Parameters& p) {
+    account(now);
+    ++open_;
     bank = {row, now + p.rc, now + p.rcd, now + p.ras};
     for (int g = 0; g < std::ssize(groups_); ++g)
       groups_[g] = std::max(groups_[g], now + (g == group ? p.rrd_l : p.rrd_s));
@@ -48,24 +50,41 @@ class RankState {
     return std::max(bank.precharge, next_precharge_);
   }
   void precharge(BankState& bank, std::int64_t now, int cycles, const Parameters& p) {
+    account(now);
+    if (bank.open >= 0) --open_;
     bank.open = -1;
     bank.activate = std::max(bank.activate, now + cycles);
     next_precharge_ = now + p.ppd;
   }
   void refresh(std::int64_t now, const Parameters& p) {
+    account(now);
+    refreshes_until_ = std::max(refreshes_until_, now + p.rfc);
     for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
+  }
+
+  // Counts the cycles before `now` in which a row was open or a refresh ran.
+  std::int64_t active(std::int64_t now) const {
+    const std::int64_t end = open_ > 0 ? now : std::min(now, refreshes_until_);
+    return active_ + std::max<std::int64_t>(0, end - accounted_);
   }
 
   std::int64_t due;      // cycle of the next refresh
   bool closing = false;  // its banks are closed for the refresh
 
  private:
+  void account(std::int64_t now) {
+    active_ = active(now);
+    accounted_ = now;
+  }
+
   std::vector<BankState> banks_;
   std::vector<std::int64_t> groups_;  // first cycle in which a bank of each may be activated
   std::vector<std::int64_t> four_;    // cycles of the last four ACT
   std::size_t oldest_ = 0;
   std::int64_t next_precharge_ = kLongAgo;
   int banks_of_group_;
+  int open_ = 0;  // banks with an open row
+  std::int64_t active_ = 0, accounted_ = 0, refreshes_until_ = 0;
 };
 
 // Holds the rules for column commands of a channel. Its ranks share the data bus.

@@ -4,7 +4,9 @@
 #include <bit>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "hwmodel/memory/energy.h"
 #include "kernel/scene/text/document.h"
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/reader.h"
@@ -116,6 +118,31 @@ void read_cycles(scene::Reader& from, memory::Parameters& p) {
   p.interface_cycles = cycles("interface_cycles", 0, kMost);
 }
 
+void read_rails(scene::Reader& root, memory::Parameters& p) {
+  std::optional<scene::Reader> power = root.table("power");
+  if (!power) return;
+  p.parts = power->integer("parts", 1, 64);
+  std::vector<scene::Reader> rails = power->tables("rail");
+  if (rails.empty()) power->fail("rail", ": there is no supply");
+  for (scene::Reader& from : rails) {
+    const auto current = [&](const char* key, double lowest) {
+      return from.number(key, {.lowest = lowest, .highest = 10000});
+    };
+    memory::Rail rail;
+    rail.name = from.text("name");
+    rail.volts = from.number("volts", {.lowest = 0.1, .highest = 10});
+    rail.idd2n = current("idd2n", 0);
+    rail.idd3n = current("idd3n", rail.idd2n);
+    rail.idd0 = current("idd0", memory::standby_of_a_row(rail, p));
+    rail.idd4r = current("idd4r", rail.idd3n);
+    rail.idd4w = current("idd4w", rail.idd3n);
+    rail.idd5 = current("idd5", rail.idd3n);
+    from.finish();
+    p.rails.push_back(rail);
+  }
+  power->finish();
+}
+
 scene::Value document_of(const std::string& name, const std::string& place) {
   if (name.ends_with(".toml")) return scene::parse_file(name);
   const std::vector<MemoryFile>& files = memory_files();
@@ -145,6 +172,7 @@ memory::Parameters load_memory(const std::string& name, const std::string& place
   read_shape(*from, p);
   read_cycles(*from, p);
   from->finish();
+  read_rails(root, p);
   root.finish();
   return p;
 }

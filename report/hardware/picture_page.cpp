@@ -78,7 +78,11 @@ std::string dram(const Json& json) {
              "<p class=\"soft\">{} refreshes; a read takes {} cycles of the memory in the mean, {} at "
              "worst.</p>",
              number(json["refreshes"]), number(json["mean_read_cycles"], 1),
-             number(json["worst_read_cycles"]));
+             number(json["worst_read_cycles"])) +
+         (json["watts"].is_null()
+              ? "<p class=\"soft\">Its sheet has no currents, so its energy is unknown.</p>"
+              : fmt::format("<p class=\"soft\">It takes {} nJ, which are {} W.</p>",
+                            number(json["nanojoules"]["all"], 0), number(json["watts"], 3)));
 }
 
 std::string memories(const Json& pipe) {

@@ -1,4 +1,5 @@
 #include "hwmodel/caster/report/report_memory.h"
+#include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/ratio.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,29 @@
 #include <nlohmann/json.hpp>
 
 namespace voxmelt::hwmodel {
+namespace {
+
+std::string energy_text(const memory::Counts& c, const memory::Parameters& p) {
+  if (p.rails.empty()) return "  energy: unknown, the sheet has no currents\n";
+  const memory::Energy e = memory::energy_of(c, p);
+  const auto part = [&](double energy) { return 100 * ratio(energy, e.all()); };
+  return fmt::format(
+      "  energy: {:.2f} uJ, {:.3f} W; of it, in %: activate {:.1f}, read {:.1f}, write {:.1f}, refresh "
+      "{:.1f}, "
+      "background {:.1f}\n",
+      1e-3 * e.all(), ratio(e.all(), memory::nanoseconds_of(c, p)), part(e.activate), part(e.read),
+      part(e.write), part(e.refresh), part(e.background));
+}
+
+nlohmann::ordered_json energy_json(const memory::Counts& c, const memory::Parameters& p) {
+  if (p.rails.empty()) return {};
+  const memory::Energy e = memory::energy_of(c, p);
+  return {{"activate", e.activate},     {"read", e.read}, {"write", e.write}, {"refresh", e.refresh},
+          {"background", e.background}, {"all", e.all()}};
+}
+
+}  // namespace
+
 std::string memory_text(const memory::Counts& c, const memory::Parameters& p) {
   const std::int64_t requests = c.reads + c.writes;
   const auto part = [&](std::int64_t cycles) { return 100 * ratio(cycles, c.cycles()); };
@@ -22,7 +46,8 @@ std::string memory_text(const memory::Counts& c, const memory::Parameters& p) {
          fmt::format("  turnarounds: {} to write, {} to read; {} requests waited for one of the same burst\n",
                      c.read_to_write, c.write_to_read, c.held) +
          fmt::format("  a read takes {:.0f} ns in the mean, {:.0f} ns at worst\n",
-                     in_ns(ratio(c.read_latency, c.reads)), in_ns(static_cast<double>(c.worst_read)));
+                     in_ns(ratio(c.read_latency, c.reads)), in_ns(static_cast<double>(c.worst_read))) +
+         energy_text(c, p);
 }
 
 nlohmann::ordered_json memory_json(const memory::Counts& c, const memory::Parameters& p) {
@@ -50,7 +75,12 @@ nlohmann::ordered_json memory_json(const memory::Counts& c, const memory::Parame
             {"all", c.cycles()}}},
           {"mean_read_cycles", ratio(c.read_latency, c.reads)},
           {"worst_read_cycles", c.worst_read},
-          {"worst_write_cycles", c.worst_write}};
+          {"worst_write_cycles", c.worst_write},
+          {"active_rank_cycles", c.active},
+          {"nanojoules", energy_json(c, p)},
+          {"watts", p.rails.empty() ? nlohmann::ordered_json()
+                                    : nlohmann::ordered_json(ratio(memory::energy_of(c, p).all(),
+                                                                   memory::nanoseconds_of(c, p)))}};
 }
 
 }  // namespace voxmelt::hwmodel

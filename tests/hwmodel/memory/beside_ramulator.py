@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 GRADE = {"cl": 16, "rcd": 16, "rp": 16, "rp_all": 16, "rc": 55}
 CONFIGURATION = "standard = DDR4\nchannels = 1\nranks = 1\nspeed = DDR4_2400R\norg = DDR4_8Gb_x8\nrecord_cmd_trace = off\nprint_cmd_trace = off\n"
 FAR, TWO_BANKS = 1 << 30, 1 << 16  # another row of the same banks; the bank after the next

@@ -17,6 +17,7 @@
 
 #include "hwmodel/memory/address_map.h"
 #include "hwmodel/memory/dram.h"
+#include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/sheet.h"
 
 namespace voxmelt::hwmodel::memory {
@@ -53,8 +54,10 @@ void run(const std::vector<Request>& requests, const Parameters& p) {
     while (dram.reply(port) != nullptr) dram.take(port);
     while (next < requests.size() && dram.ready(port)) dram.put(port, requests[next++]);
   }
-  fmt::print("{} requests, {} cycles, {} turns from reads to writes\n", requests.size(), dram.memory_cycles(),
-             dram.counts().read_to_write);
+  const Counts counts = dram.counts();
+  fmt::print("{} requests, {} cycles, {} turns from reads to writes; {} rows opened, {:.3f} nJ\n",
+             requests.size(), dram.memory_cycles(), counts.read_to_write, counts.activates,
+             energy_of(counts, p).all());
 }
 
 void replay(const std::string& memory, const std::string& in, const std::string& out) {
