@@ -59,7 +59,7 @@ ALLOWED = {
     "hwmodel/pipeline/streams": [FABRIC, PIPELINE, "hwmodel/memory"],
     "hwmodel/pipeline/time": [PIPELINE],
     "hwmodel/pipeline/faults": [FABRIC, "hwmodel/check", PIPELINE],
-    "hwmodel/pipeline/check": ["hwmodel/check", "hwmodel/check/shrink", PIPELINE, "hwmodel/pipeline/faults", "hwmodel/pipeline/time", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene", "kernel/scene/text"],
+    "hwmodel/pipeline/check": ["hwmodel/fabric/ring.h", "hwmodel/check", "hwmodel/check/shrink", PIPELINE, "hwmodel/pipeline/faults", "hwmodel/pipeline/time", STATE, STEP, "kernel/engine/scalar", "kernel/run", "kernel/run/io", "kernel/scene", "kernel/scene/text"],
     "hwmodel/pipeline/report": [PIPELINE, "hwmodel/pipeline/check", "hwmodel/memory/ratio.h"],
     # The ray caster sees nothing of the software at all: the host's part stands beside it.
     CASTER: [FABRIC, "hwmodel/check/token_source.h", "hwmodel/memory"],

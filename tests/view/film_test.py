@@ -4,7 +4,9 @@
 A script stands for ffmpeg and keeps the raw frames. They are those of `voxmelt render --setting best` of the saved scene. The
 page goes on meanwhile. A film that is stopped, or that nobody can make, leaves the run as it was."""
 import os
+import shutil
 import struct
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -103,6 +105,26 @@ class FilmTest(unittest.TestCase):
                            cwd=self.path)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(film[frame * size:(frame + 1) * size], pixels((self.path / "one.png").read_bytes()), f"step {step}")
+
+    @unittest.skipIf(shutil.which("ffmpeg") is None, "there is no ffmpeg")
+    def test_a_real_film_shows_them(self):
+        with Server(PROGRAM, self.scene, "--threads", 2, cwd=self.path) as server, Page(server) as page:
+            page.rest(0)
+            page.send("size 160 120")
+            page.send("speed 5")
+            page.send("step 10")
+            page.rest(10)
+            page.send("film 1")
+            _, (head, film) = self.told(page)
+        (self.path / head["name"]).write_bytes(film)
+        done = subprocess.run(["ffmpeg", "-v", "error", "-i", head["name"], "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                              cwd=self.path, capture_output=True, check=True)
+        size = 3 * 160 * 120
+        self.assertEqual(len(done.stdout), 3 * size)
+        for frame, step in enumerate((0, 5, 10)):
+            voxmelt("render", self.scene, "--steps", step, "--size", "160x120", "--setting", "best", "--out", "one.png", cwd=self.path)
+            wanted, shown = pixels((self.path / "one.png").read_bytes()), done.stdout[frame * size:(frame + 1) * size]
+            self.assertLess(sum(abs(a - b) for a, b in zip(wanted, shown)) / size, 6, f"step {step}")
 
     def test_it_can_be_stopped(self):
         with self.serve(KEEP) as server, Page(server) as page:

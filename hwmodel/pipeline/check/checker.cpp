@@ -13,6 +13,16 @@
 #include "hwmodel/pipeline/model/lag.h"
 
 namespace voxmelt::hwmodel {
+namespace {
+
+constexpr Cell kEmptyCell = [] {
+  Cell cell;
+  cell.amount = 0;
+  cell.state = State::air;
+  return cell;
+}();
+
+}  // namespace
 
 Checker::Checker(StreamMachine& machine)
     : machine_(machine),
@@ -23,7 +33,21 @@ Checker::Checker(StreamMachine& machine)
   std::size_t stage = 0;
   for (const ChannelReport& report : machine.channels()) {
     if (is_feed(report.producer)) continue;
-    Channel channel{report.name, report.producer, report.cascade, 0, false, 0, 0, {}, {}, SIZE_MAX, {}, {}};
+    Channel channel{report.name,
+                    report.producer,
+                    report.cascade,
+                    0,
+                    false,
+                    0,
+                    0,
+                    {},
+                    {},
+                    SIZE_MAX,
+                    {},
+                    nullptr,
+                    {},
+                    {},
+                    Ring<Cell>(shape_.lanes)};
     if (report.producer != StageKind::reader) {
       stage = report.cascade == cascade ? stage + 1 : 0;
       cascade = report.cascade;
@@ -73,16 +97,16 @@ void Checker::next_pass(std::size_t& pass, Place& place) const {
   if (at < passes_.size()) place = begin_of(shape_, passes_[at].pass.tile);
 }
 
-const Expected* Checker::expected_of(const Channel& channel) {
+const Expected* Checker::expected_of(Channel& channel) const {
   const auto& steps = passes_[channel.entering - written_].steps;
   const std::size_t step = channel.cascade;
   if (step >= steps.size() || steps[step].empty()) return nullptr;
   const Expected& expected = steps[step].at(channel.stage);
   if (channel.behind_stage) return &expected;
-  read_ = {expected.before, expected.before, {}};  // before the first stage
+  channel.read = {expected.before, expected.before, {}};  // before the first stage
   // Memory keeps what is set for the later passes of a step. Their first stage hands it on.
-  if (!passes_[channel.entering - written_].pass.begins()) read_.bands.set = expected.bands.set;
-  return &read_;
+  if (!passes_[channel.entering - written_].pass.begins()) channel.read.bands.set = expected.bands.set;
+  return &channel.read;
 }
 
 void Checker::entered(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
@@ -90,31 +114,44 @@ void Checker::entered(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
   if (channel.spanned != channel.entering) {
     channel.spanned = channel.entering;
     channel.span = span_of(channel, passes_[channel.entering - written_].pass);
+    channel.expected = expected_of(channel);
+    channel.air.forget();
   }
-  if (mismatch_ == nullptr) compare(channel, lanes);
-  channel.in_flight.insert(channel.in_flight.end(), lanes, lanes + shape_.lanes);
+  if (mismatch_ == nullptr && channel.expected != nullptr) compare(channel, lanes);
+  channel.in_flight.push(lanes);
   channel.place.next(shape_);
   if (channel.place.ordinal == shape_.tokens()) next_pass(channel.entering, channel.place);
 }
 
-void Checker::compare(const Channel& channel, const Cell* lanes) {
-  const Expected* expected = expected_of(channel);
-  if (expected == nullptr) return;
+// A token of nothing but air, as most are, needs no look at its cells one by one.
+bool Checker::equals_air(Channel& channel, const Cell* lanes) const {
+  const Place& place = channel.place;
+  return place.x >= channel.span.begin && place.x + shape_.lanes <= channel.span.end &&
+         std::all_of(lanes, lanes + shape_.lanes, [](const Cell& is) { return is == kEmptyCell; }) &&
+         channel.air.at(*channel.expected, shape_, place);
+}
+
+void Checker::compare(Channel& channel, const Cell* lanes) {
+  const Expected& expected = *channel.expected;
   const Place& place = channel.place;
   const Pass& pass = passes_[channel.entering - written_].pass;
   const int cells = std::min(shape_.lanes, shape_.grid.x - place.x);
+  if (equals_air(channel, lanes)) {
+    if (channel.behind_stage && shape_.owns(pass.tile, place.x)) compared_cells_ += cells;
+    return;
+  }
   for (int lane = 0; lane < cells; ++lane) {
     const int x = place.x + lane;
     if (x < channel.span.begin || x >= channel.span.end) continue;
-    const Cell wanted = wanted_cell(*expected, x, place.y, place.z);
-    if (!compare(channel, *expected, wanted, lanes[lane], lane)) return;
+    const Cell wanted = wanted_cell(expected, x, place.y, place.z);
+    if (!compare(channel, expected, wanted, lanes[lane], lane)) return;
     if (channel.behind_stage && shape_.owns(pass.tile, x)) ++compared_cells_;
   }
   for (int lane = cells; lane < shape_.lanes; ++lane) {
     Cell border;
     border.beside_wall = lanes[lane].beside_wall;  // no stage reads which sides the border has
     border.touches = lanes[lane].touches;
-    if (!compare(channel, *expected, border, lanes[lane], lane)) return;
+    if (!compare(channel, expected, border, lanes[lane], lane)) return;
   }
 }
 
@@ -134,6 +171,20 @@ bool Checker::compare(const Channel& channel, const Expected& expected, const Ce
   });
 }
 
+// Returns false if the token that leaves is not the one that entered.
+bool Checker::compare_with_entered(Channel& channel, const Cell* lanes) {
+  static const std::vector<Cell> nothing(kMostLanes);
+  const Cell* const entered = channel.in_flight.empty() ? nothing.data() : channel.in_flight.pop();
+  const int lane = static_cast<int>(std::mismatch(lanes, lanes + shape_.lanes, entered).first - lanes);
+  if (lane == shape_.lanes) return true;
+  for (const CellWire& row : kCellWires) {
+    const std::int64_t was = row.get(entered[lane]), is = row.get(lanes[lane]);
+    if (was != is && mismatch_ == nullptr)
+      report(channel, Mismatch::Kind::channel, channel.leaving, channel.left, lane, row.label, was, is);
+  }
+  return false;
+}
+
 void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
   Channel& channel = channels_[number];
   if (mismatch_ != nullptr) return;
@@ -142,18 +193,7 @@ void Checker::left(int number, std::int64_t /*ordinal*/, const Cell* lanes) {
     const std::int64_t streamed = passes_[channel.leaving - written_].pass.tile * shape_.tokens();
     written_in_[streamed + channel.left.ordinal] = machine_.cycle();
   }
-  for (int lane = 0; lane < shape_.lanes; ++lane) {
-    const Cell entered = channel.in_flight.empty() ? Cell{} : channel.in_flight.front();
-    if (!channel.in_flight.empty()) channel.in_flight.pop_front();
-    const Cell& is = lanes[lane];
-    if (entered == is) continue;
-    const auto differs = [&](std::string_view field, std::int64_t a, std::int64_t b) {
-      if (a != b && mismatch_ == nullptr)
-        report(channel, Mismatch::Kind::channel, channel.leaving, channel.left, lane, field, a, b);
-    };
-    for (const CellWire& row : kCellWires) differs(row.label, row.get(entered), row.get(is));
-    return;
-  }
+  if (!compare_with_entered(channel, lanes)) return;
   if (writes) compare_written(channel, lanes);
   if (writes && channel.left.ordinal + 1 == shape_.tokens()) compare_pass(channel);
   channel.left.next(shape_);
@@ -172,7 +212,8 @@ void Checker::compare_written(const Channel& channel, const Cell* lanes) {
     for (int lane = 0; lane < cells; ++lane) compare_memory(channel, *wanted.written, lane, lanes[lane]);
   // Every written cell must have arrived, and must stay. (With hw.coded a column arrives as a whole.)
   const int arrived = wanted.pass.tile + (machine_.configuration().coded ? 0 : 1);
-  if (wanted.left != nullptr && shape_.owner(place.x / shape_.lanes) < arrived)
+  if (wanted.left != nullptr && shape_.owner(place.x / shape_.lanes) < arrived &&
+      !same_cells(*wanted.left, machine_.written(), place.x, cells, place.y, place.z))
     for (int lane = 0; lane < cells; ++lane)
       compare_memory(channel, *wanted.left, lane,
                      wanted_cell(machine_.written(), place.x + lane, place.y, place.z));

@@ -16,8 +16,10 @@
 #include <string_view>
 #include <vector>
 
+#include "hwmodel/fabric/ring.h"
 #include "hwmodel/pipeline/check/expectation.h"
 #include "hwmodel/pipeline/check/mismatch.h"
+#include "hwmodel/pipeline/check/wanted_air.h"
 #include "hwmodel/pipeline/model/stream_machine.h"
 #include "kernel/automaton/state/ledger.h"
 
@@ -67,9 +69,12 @@ class Checker final : public FifoWatcher<Cell> {
     bool behind_stage = false;
     std::size_t entering = 0, leaving = 0;  // the passes of the next token to enter, and to leave
     Place place, left;                      // places of these tokens
-    std::size_t spanned = SIZE_MAX;         // the pass of `span`
+    std::size_t spanned = SIZE_MAX;         // the pass of the next three
     Span span;                              // cells that must be right in the tokens that enter
-    std::deque<Cell> in_flight;             // copies, apart from the channel's own memory
+    const Expected* expected = nullptr;     // what they must be; null: they are not compared
+    Expected read;                          // the same where the producer is the reader
+    WantedAir air;
+    Ring<Cell> in_flight;  // copies, apart from the channel's own memory
   };
 
   // Returns the cells behind a channel's producer that must be right.
@@ -78,8 +83,10 @@ class Checker final : public FifoWatcher<Cell> {
 
   // Returns what is expected behind the producer of a channel in one pass. Null means that it is not
   // compared.
-  const Expected* expected_of(const Channel& channel);
-  void compare(const Channel& channel, const Cell* lanes);
+  const Expected* expected_of(Channel& channel) const;
+  void compare(Channel& channel, const Cell* lanes);
+  bool equals_air(Channel& channel, const Cell* lanes) const;
+  bool compare_with_entered(Channel& channel, const Cell* lanes);
   void compare_written(const Channel& channel, const Cell* lanes);
   void compare_memory(const Channel& channel, const state::Volume& volume, int lane, const Cell& is);
   void compare_pass(const Channel& channel);  // after its last tile has been written
@@ -95,7 +102,6 @@ class Checker final : public FifoWatcher<Cell> {
   std::vector<std::int64_t> written_in_;  // cycles, by ordinal of the token
   std::deque<Wanted> passes_;             // passes of the train, without those that have been written
   std::size_t written_ = 0;               // written passes of the train
-  Expected read_;                         // the tokens that the reader gives
   bool stops_ = true;
   std::unique_ptr<Mismatch> mismatch_;
   std::int64_t compared_cells_ = 0;

@@ -26,7 +26,7 @@ Expectation::Expectation(const rule::Parameters& parameters, const state::Volume
 
 void Expectation::begin_step() {
   if (begun_) return;
-  if (parameters_.pieces.fall) unfallen_ = std::make_shared<const state::Volume>(reference_.volume());
+  if (parameters_.pieces.fall) unfallen_ = snapshots_.of(reference_.volume());
   reference_.begin_step();
   fast_.begin_step();
   begun_ = true;
@@ -41,13 +41,13 @@ Expectation::Step Expectation::step(bool keep) {
   begin_step();
   around_ = nullptr;
   Step result;
-  Snapshot before = keep ? std::make_shared<state::Volume>(reference_.volume()) : nullptr;
+  Snapshot before = keep ? snapshots_.of(reference_.volume()) : nullptr;
   if (keep && unfallen_ != nullptr) result.stages.push_back({unfallen_, before, {}});  // behind `fall`
-  state::Volume before_flow;
+  Snapshot before_flow;
   const std::vector<step::Phase> phases = reference_.phases();
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const step::Phase phase = phases[i];
-    if (run::begins_flow(phases, i)) before_flow = reference_.volume();
+    if (run::begins_flow(phases, i)) before_flow = snapshots_.of(reference_.volume());
     const bool staged =
         std::any_of(stages_.begin(), stages_.end(), [&](StageKind one) { return phase_of(one) == phase; });
     const step::Moment moment = reference_.moment();
@@ -73,11 +73,11 @@ Expectation::Step Expectation::step(bool keep) {
       });
       return result;
     }
-    const auto after = std::make_shared<const state::Volume>(volume());
+    const Snapshot after = snapshots_.of(volume());
     expect_inside(phase, moment, before, after, result.stages);
     before = after;
   }
-  result.mismatch = compare_sleep(before_flow, phases.back());
+  result.mismatch = compare_sleep(*before_flow, phases.back());
   reference_.end_step();
   fast_.end_step();
   begun_ = false;
@@ -195,7 +195,7 @@ Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volu
   if (stage != StageKind::convection) heat.convection = 0;
   if (stage == StageKind::conduction) heat.neighbours = 6;
   if (stage == StageKind::edges) heat.neighbours = 18;
-  auto result = std::make_shared<state::Volume>(before);
+  const std::shared_ptr<state::Volume> result = snapshots_.of(before);
   state::Ledger ledger;
   scalar::Reference(cut, before.grid)
       .run(step::Phase::heat, step::Moment(step_number()), nullptr, *result, ledger);
@@ -203,27 +203,27 @@ Expectation::Snapshot Expectation::heat_up_to(StageKind stage, const state::Volu
 }
 
 std::shared_ptr<const state::BitPlane> Expectation::set_cells(const state::Volume& before) {
-  state::Volume scratch = before;
+  const std::shared_ptr<state::Volume> scratch = snapshots_.of(before);
   state::Ledger ledger;
   melted_ = std::make_unique<scalar::Reference>(parameters_, before.grid);  // it has no patterns yet
-  melted_->run(step::Phase::melt, step::Moment(step_number()), nullptr, scratch, ledger);
+  melted_->run(step::Phase::melt, step::Moment(step_number()), nullptr, *scratch, ledger);
   return std::make_shared<const state::BitPlane>(melted_->set_cells());
 }
 
 std::shared_ptr<const state::Field<std::uint8_t>> Expectation::patterns(const state::Volume& before) {
-  state::Volume scratch = before;
+  const std::shared_ptr<state::Volume> scratch = snapshots_.of(before);
   state::Ledger ledger;
   scalar::Reference fresh(parameters_, before.grid);
   scalar::Reference& reference = melted_ != nullptr ? *melted_ : fresh;
-  reference.run(step::Phase::spread, step::Moment(step_number()), nullptr, scratch, ledger);
+  reference.run(step::Phase::spread, step::Moment(step_number()), nullptr, *scratch, ledger);
   return std::make_shared<const state::Field<std::uint8_t>>(reference.pattern());
 }
 
 std::shared_ptr<const ShownRuns> Expectation::runs(step::Moment moment, const state::Volume& before) {
-  state::Volume scratch = before;
+  const std::shared_ptr<state::Volume> scratch = snapshots_.of(before);
   state::Ledger ledger;
   scalar::Reference reference(parameters_, before.grid);
-  reference.run(step::Phase::excess, moment, nullptr, scratch, ledger);
+  reference.run(step::Phase::excess, moment, nullptr, *scratch, ledger);
   return std::make_shared<const ShownRuns>(reference, before.grid);
 }
 

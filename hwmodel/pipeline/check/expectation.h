@@ -11,6 +11,7 @@
 
 #include "hwmodel/pipeline/check/mismatch.h"
 #include "hwmodel/pipeline/check/side_bands.h"
+#include "hwmodel/pipeline/check/snapshots.h"
 #include "hwmodel/pipeline/model/stage_kind.h"
 #include "kernel/engine/scalar/reference.h"
 #include "kernel/run/simulation.h"
@@ -70,6 +71,7 @@ class Expectation {
   run::Simulation reference_, fast_;
   std::string fast_name_;
   std::vector<StageKind> stages_;
+  Snapshots snapshots_;
   // The following belong to the present step. `around_` looks around the cells before the phase `heat` or,
   // under the viscous law, before the spread. `shown_` has the runs of the present sub-step. `melted_` has
   // run the phase melt, and knows what is set.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
+#include <tuple>
 
 #include "hwmodel/pipeline/model/volume_port.h"
+#include "kernel/automaton/state/fields.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -28,7 +31,27 @@ void add_bands(const SideBands& bands, int x, int y, int z, state::Slot at, Cell
   cell.shut = run->shut;
 }
 
+bool same(const state::BitPlane& a, const state::BitPlane& b, int x, int cells, int y, int z) {
+  const std::span<const std::uint64_t> left = a.row(y, z), right = b.row(y, z);
+  std::uint64_t differ = 0;
+  for (int i = x; i < x + cells; ++i) differ |= (left[i / 64] ^ right[i / 64]) >> (i % 64) & 1;
+  return differ == 0;
+}
+
+template <class T>
+bool same(const state::Field<T>& a, const state::Field<T>& b, int x, int cells, int y, int z) {
+  if (a.empty() || b.empty()) return a.empty() == b.empty();
+  const T* const row = a.row(y, z) + x;
+  return std::equal(row, row + cells, b.row(y, z) + x);
+}
+
 }  // namespace
+
+bool same_cells(const state::Volume& a, const state::Volume& b, int x, int cells, int y, int z) {
+  return std::apply(
+      [&](const auto&... row) { return (same(a.*row.column, b.*row.column, x, cells, y, z) && ...); },
+      state::kFields);
+}
 
 Cell wanted_cell(const state::Volume& volume, int x, int y, int z) {
   const state::Slot at = volume.at(x, y, z);

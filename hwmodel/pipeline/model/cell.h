@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "hwmodel/fabric/wires.h"
 
@@ -43,14 +45,16 @@ struct Cell : StoredCell {
   UInt<1> touches;       // conduction -> melt: one of the six face neighbours is blocked
   UInt<1> set;           // melt -> gravity, pattern, settle and viscous spread: the place gives nothing
   UInt<1> in_run;        // settle -> viscous spread -> gravity
+  UInt<1> shut;          // settle -> viscous spread: the run is full, and has a ceiling
+  std::uint8_t unused = 0;
   // The following go from settle to viscous spread, for cells in a run. The head is in 1/512 cell, and its
   // used width depends on the grid's height. The mobility is in 1/2^24 before it is limited, and its limit in
   // 1/65536. Head differences up to `dead` do not move the cell.
   SInt<30> head;
   UInt<22> mobility;
-  UInt<14> limit;
   UInt<25> dead;
-  UInt<1> shut;  // the run is full, and has a ceiling
+  UInt<14> limit;
+  std::uint16_t unused_too = 0;
 
   // Ends a phase. A cell that is not blocked becomes liquid if it holds something, and otherwise empty and
   // cold.
@@ -60,7 +64,9 @@ struct Cell : StoredCell {
     if (amount == 0) energy = heat = 0;
   }
 
-  friend bool operator==(const Cell&, const Cell&) = default;
+  // No byte of a cell is without a meaning, so cells compare as bytes. The simulation compares every token.
+  friend bool operator==(const Cell& a, const Cell& b) { return std::memcmp(&a, &b, sizeof(Cell)) == 0; }
 };
+static_assert(sizeof(Cell) == 32 && std::has_unique_object_representations_v<Cell>);
 
 }  // namespace voxmelt::hwmodel

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernel/automaton/state/digest.h"
+#include "kernel/automaton/state/fields.h"
 #include "tests/hwmodel/pipeline/check/lockstep_world.h"
 
 namespace voxmelt::hwmodel {
@@ -129,6 +130,64 @@ TEST(Checker, EverySecondStepAndTheLastAreCompared) {
   EXPECT_EQ(report.passes, 2);
   EXPECT_EQ(report.steps, 5u);
   EXPECT_GE(polls, 5) << "once a step at least";
+}
+
+// Stands for the stage source, and spoils one token of step 1: the first one that is air, or is not.
+class SpoilsAToken final : public Stage {
+ public:
+  SpoilsAToken(const Design& design, bool of_air, Cell with)
+      : Stage(StageKind::source, design, 0), of_air_(of_air), with_(with) {}
+
+ private:
+  void advance(const Cell* in, Cell* out) override {
+    std::copy(in, in + lanes(), out);
+    const bool air = std::all_of(in, in + lanes(), [](const Cell& cell) { return cell.air(); });
+    const bool within = came().x + lanes() <= shape().grid.x;
+    if (done_ || step() != 1 || air != of_air_ || !within) return;
+    std::fill(out, out + lanes(), with_);
+    done_ = true;
+  }
+
+  bool of_air_, done_ = false;
+  Cell with_;
+};
+
+std::string field_found_in_a_token(bool of_air, Cell with) {
+  Start start = warm_start();
+  worlds::for_each({0, 3, 0, 7, 6, 5}, [&](int x, int y, int z) {  // air in its upper half
+    state::for_each_field([&](const auto& row) {
+      if (!(start.volume.*row.column).empty()) state::set_value(start.volume.*row.column, x, y, z, 0);
+    });
+  });
+  start.parameters.vents.push_back(
+      {.region = {}, .from = 1000, .until = 1001});  // so there is a stage for sources
+  VerifyOptions options;
+  options.steps = 2;
+  options.configuration.lanes = 4;  // as many cells as the checker looks at together
+  options.make = [&](StageKind kind, const Design& design) -> std::unique_ptr<Stage> {
+    if (kind == StageKind::source) return std::make_unique<SpoilsAToken>(design, of_air, with);
+    return make_stage(kind, design);
+  };
+  const VerifyReport report =
+      verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
+  if (report.mismatch == nullptr) return "nothing";
+  EXPECT_EQ(report.mismatch->where, "source");
+  EXPECT_EQ(report.mismatch->step, 1u);
+  return report.mismatch->field;
+}
+
+TEST(Checker, AirIsComparedAsWell) {
+  Cell empty;
+  empty.amount = 0;
+  empty.state = State::air;
+  EXPECT_EQ(field_found_in_a_token(true, empty), "nothing") << "it was that before";
+  EXPECT_EQ(field_found_in_a_token(false, empty), "state") << "what a token held is lost";
+  Cell warm = empty;
+  warm.heat = 1;
+  EXPECT_EQ(field_found_in_a_token(true, warm), "heat");
+  Cell given = empty;
+  given.pattern = 1;
+  EXPECT_EQ(field_found_in_a_token(true, given), "pattern");
 }
 
 // Without stalls, a token is at a stage when all stages before it have waited for their lags.
