@@ -54,14 +54,15 @@ void split_sets(ExploreCommand& command) {
 std::optional<hwmodel::memory::Parameters> find_memory(const std::string& name) {
   if (name == "none") return {};
   std::string known = "none";
-  bool there = name.ends_with(".toml");
+  bool there = hwmodel::is_memory_file(name);
   for (const hwmodel::MemoryFile& file : hwmodel::memory_files()) {
     there = there || file.name == name;
     known += ", " + file.name;
   }
   if (!there)
     throw UsageError(fmt::format(
-        "error: --memory {}: no such memory; there are {}, or a file that ends in .toml", name, known));
+        "error: --memory {}: no such memory; there are {}, or a file that ends in .toml, .json or .yaml",
+        name, known));
   return hwmodel::load_memory(name, "--memory " + name);
 }
 

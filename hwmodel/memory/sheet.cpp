@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "hwmodel/memory/energy.h"
+#include "hwmodel/memory/import_dramsys.h"
+#include "hwmodel/memory/import_ramulator.h"
 #include "kernel/scene/text/document.h"
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/reader.h"
@@ -143,8 +146,17 @@ void read_rails(scene::Reader& root, memory::Parameters& p) {
   power->finish();
 }
 
+struct Format {
+  const char* end;
+  scene::Value (*read)(const std::string& file);
+};
+constexpr Format kFormats[] = {{".toml", [](const std::string& file) { return scene::parse_file(file); }},
+                               {".json", import_dramsys},
+                               {".yaml", import_ramulator}};
+
 scene::Value document_of(const std::string& name, const std::string& place) {
-  if (name.ends_with(".toml")) return scene::parse_file(name);
+  for (const Format& format : kFormats)
+    if (name.ends_with(format.end)) return format.read(name);
   const std::vector<MemoryFile>& files = memory_files();
   const auto at =
       std::find_if(files.begin(), files.end(), [&](const MemoryFile& file) { return file.name == name; });
@@ -154,10 +166,15 @@ scene::Value document_of(const std::string& name, const std::string& place) {
   std::string known = "fixed";
   for (const MemoryFile& file : files) known += ", " + file.name;
   throw scene::InputError(place + ": error: no memory \"" + name + "\"; there are " + known +
-                          ", or a file that ends in .toml");
+                          ", or a file that ends in .toml, .json or .yaml");
 }
 
 }  // namespace
+
+bool is_memory_file(const std::string& name) {
+  return std::any_of(std::begin(kFormats), std::end(kFormats),
+                     [&](const Format& format) { return name.ends_with(format.end); });
+}
 
 memory::Parameters load_memory(const std::string& name, const std::string& place) {
   const scene::Value document = document_of(name, place);

@@ -116,7 +116,7 @@ THIRD_PARTY = {
     "boost/": ["app/view/server.cpp"],
     "jpeglib.h": ["app/view/encode.cpp"],
     "benchmark/": ["bench"],
-    "nlohmann/": ["kernel/run/checkpoint", "kernel/run/io", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
+    "nlohmann/": ["kernel/run/checkpoint", "kernel/run/io", "hwmodel/memory", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
                   "report/bench", "report/hardware", "app", "app/view"],
     "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",

@@ -104,7 +104,7 @@ TEST(MemoryPreset, RefusesWhatCannotBe) {
     EXPECT_EQ(
         std::string(error.what()),
         "--set hw.memory=ddr5: error: no memory \"ddr5\"; there are fixed, ddr4-2400, ddr5-4800, gddr6, "
-        "hbm2-stack, hbm2, hbm3, lpddr4-3200, lpddr5-6400, or a file that ends in .toml");
+        "hbm2-stack, hbm2, hbm3, lpddr4-3200, lpddr5-6400, or a file that ends in .toml, .json or .yaml");
   }
 }
 
