@@ -115,6 +115,14 @@ TEST_F(Cells, ACutShowsTheCellsBehindItInTheirOwnColours) {
 }
 
 // Along every axis, and by perspective: the eye is 50 cells before the target.
+TEST_F(Cells, WhatLiesBehindACutThroughAirIsNoCutFace) {
+  Simulation simulation(write("boxes.toml", kBoxes));
+  const Frame frame =
+      simulation.render_cells({CellColours::phase, CellCut{Axis::z, 20}}, parallel(simulation.grid()));
+  EXPECT_EQ(at(frame, 15, 12), kSolidAlongZ);
+  EXPECT_EQ(at(frame, 28, 12), kLiquidAlongZ);
+}
+
 TEST_F(Cells, CutsTakeAwayTheSideOfTheEye) {
   Simulation simulation(write("boxes.toml", kBoxes));
   Picture picture = parallel(simulation.grid());
@@ -132,6 +140,11 @@ TEST_F(Cells, CutsTakeAwayTheSideOfTheEye) {
   EXPECT_EQ(seen(0, -89, Axis::y, 4).y, 4);
   EXPECT_EQ(seen(0, 0, Axis::z, 11), (Cell{15, 8, 10}));
   EXPECT_EQ(seen(0, 0, Axis::z, 24), (Cell{15, 8, 11})) << "nothing is cut off";
+  picture.camera->azimuth = -90;
+  picture.camera->elevation = 0;
+  EXPECT_EQ(simulation.pick_cell(160, 80, {CellColours::phase, std::nullopt}, picture)->matter,
+            (Cell{10, 8, 9}))
+      << "behind one brick of air";
 }
 
 // 0.45 lies 0.8 of the way from the scale's mark 0.25 to its mark 0.5.
@@ -163,6 +176,45 @@ gamma = 0.1
   const Frame frame =
       simulation.render_cells({CellColours::temperature, CellCut{Axis::z, 4}}, parallel(simulation.grid()));
   EXPECT_EQ(at(frame, 8, 4), (Rgb{222, 102, 98}));
+}
+
+// A material of capacity 2 has half the temperature of its heat content. 0.2 lies 0.8 of the way from the
+// scale's mark 0 to its mark 0.25. A wall keeps the temperature that its scene gives it.
+TEST_F(Cells, MaterialsAndWallsHaveTheirOwnTemperatures) {
+  Simulation simulation(write("materials.toml", R"(
+[grid]
+size = [24, 8, 8]
+[material]
+melting_point = 0.45
+[[materials]]
+name = "slow"
+melting_point = 0.45
+capacity = 2
+[[solid]]
+shape = "box"
+size = [8, 8, 8]
+at = [4, 4, 4]
+temperature = 0.2
+material = "slow"
+[[solid]]
+shape = "box"
+size = [8, 8, 8]
+at = [12, 4, 4]
+temperature = 0.2
+[[inert]]
+shape = "box"
+size = [8, 8, 8]
+at = [20, 4, 4]
+temperature = 0.45
+[heat]
+gamma = 0.1
+)"));
+  ASSERT_EQ(simulation.state().heat.at(4, 4, 4), 2 * simulation.state().heat.at(12, 4, 4));
+  const Frame frame =
+      simulation.render_cells({CellColours::temperature, CellCut{Axis::z, 4}}, parallel(simulation.grid()));
+  EXPECT_EQ(at(frame, 4, 4), (Rgb{103, 4, 161}));
+  EXPECT_EQ(at(frame, 12, 4), (Rgb{103, 4, 161}));
+  EXPECT_EQ(at(frame, 20, 4), (Rgb{188, 57, 130}));
 }
 
 // A tile is 64 cells along x, 8 rows and a slice. A change wakes the tiles beside it, too.
