@@ -114,7 +114,6 @@ TEST_F(Cells, ACutShowsTheCellsBehindItInTheirOwnColours) {
   EXPECT_EQ(other->matter, (Cell{15, 8, 10})) << "from behind, the other half is left";
 }
 
-// Along every axis, and by perspective: the eye is 50 cells before the target.
 TEST_F(Cells, WhatLiesBehindACutThroughAirIsNoCutFace) {
   Simulation simulation(write("boxes.toml", kBoxes));
   const Frame frame =
@@ -123,6 +122,7 @@ TEST_F(Cells, WhatLiesBehindACutThroughAirIsNoCutFace) {
   EXPECT_EQ(at(frame, 28, 12), kLiquidAlongZ);
 }
 
+// Along every axis, and by perspective: the eye is 50 cells before the target.
 TEST_F(Cells, CutsTakeAwayTheSideOfTheEye) {
   Simulation simulation(write("boxes.toml", kBoxes));
   Picture picture = parallel(simulation.grid());
