@@ -8,7 +8,7 @@ packages=(cmake ninja-build g++ pkg-config libpng-dev libdeflate-dev libzstd-dev
           libboost-dev libjpeg-dev)
 if [ "$(dpkg --print-architecture)" = amd64 ]; then packages+=(libembree-dev); fi
 if [ "${1:-build}" = test ]; then
-  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 strace valgrind)
+  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 strace valgrind verilator yosys)
 fi
 
 missing=()

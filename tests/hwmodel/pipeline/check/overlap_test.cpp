@@ -7,6 +7,7 @@
 #include "hwmodel/pipeline/model/blocks.h"
 #include "hwmodel/pipeline/time/prediction.h"
 #include "tests/hwmodel/pipeline/check/lockstep_world.h"
+#include "tests/rounds.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -33,6 +34,7 @@ TEST(Overlap, ClosedFormIsExact) {
         for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
           for (const bool overlap : {false, true}) {
             const int planes = ++configurations % 3 == 0 ? 24 : 61;
+            if (!all_rounds() && (configurations - 1) / 4 % 2 == 1) continue;  // every second depth
             const Start start = deep_start(static_cast<std::uint64_t>(configurations), law, planes);
             const Configuration c{lanes, cascade, depth, 0, 1, overlap};
             const auto steps = static_cast<std::uint32_t>(2 * cascade + 1);
@@ -41,8 +43,8 @@ TEST(Overlap, ClosedFormIsExact) {
             if (overlap) shorter += cycles < apart(start, c, steps);
           }
   EXPECT_EQ(configurations, 144);
-  EXPECT_GT(shorter, 30) << "hardly any passes overlapped";
-  std::printf("             %d of 72 runs were shorter with overlap\n", shorter);
+  EXPECT_GT(shorter, all_rounds() ? 30 : 15) << "hardly any passes overlapped";
+  std::printf("             %d of %d runs were shorter with overlap\n", shorter, all_rounds() ? 72 : 36);
 }
 
 // If nothing stalls, the reader never waits: n passes cost n times their tokens, and one fill and drain.
@@ -60,7 +62,7 @@ TEST(Overlap, ATrainPaysOneFillAndDrain) {
 
 // Whatever stalls, no token is read before it has been written.
 TEST(Overlap, HostileWorldsWithStalls) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(60)); ++seed) {
     worlds::Random random(seed + 7);
     const Start start =
         deep_start(seed + 500, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, random.between(20, 60));

@@ -128,6 +128,7 @@ TEST(Tiles, ClosedFormIsExact) {
           for (const bool overlap : {false, true})
             for (const int planes : {1, 9, 31}) {
               worlds::Random random(static_cast<std::uint64_t>(++configurations));
+              if (!all_rounds() && (configurations - 1) / 12 % 2 == 1) continue;  // every second depth
               Start start = hostile_start(static_cast<std::uint64_t>(configurations), law,
                                           {random.between(12, 40), random.between(1, 4), planes});
               if (law == rule::Law::viscous) start.parameters.flow.viscous.substeps = 1;
@@ -137,8 +138,8 @@ TEST(Tiles, ClosedFormIsExact) {
               cut += tiles_of(start, c) > 1;
             }
   EXPECT_EQ(configurations, 324);
-  EXPECT_GT(cut, 200);
-  std::printf("             %d of 324 grids were cut\n", cut);
+  EXPECT_GT(cut, all_rounds() ? 200 : 100);
+  std::printf("             %d of %d grids were cut\n", cut, configurations);
 }
 
 // The closed form of equal passes is worked by hand. It has one fill and drain for a train of all tiles of
