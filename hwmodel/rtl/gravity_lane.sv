@@ -28,8 +28,8 @@ module gravity_lane (
   logic [16:0] left3;
   logic signed [17:0] above3;
   wire [16:0] factor0 = q.beside_wall ? wall_factor : factor;
-  wire [16:0] part1 = 17'(product1 >> 16);
-  wire [17:0] want1 = 18'(part1) + 18'(minimum);
+  wire [15:0] part1 = 16'(product1 >> 16);  // less than 2^16, as a factor is at most 1
+  wire [16:0] want1 = 17'(part1) + 17'(minimum);
 
   // Register 4: the loop of amounts. `low` is the present amount of p.
   voxmelt_pkg::cell_t q4;
@@ -44,7 +44,7 @@ module gravity_lane (
   wire [15:0] high = down ? fallen : up ? risen : q3.amount;
 
   // Registers 5 and 6: the flow, and the energy that moves and stays.
-  logic [15:0] energy5, flow5, high5, low5, flow6, low6, moved6, stays6;
+  logic [15:0] energy5, flow5, low5, flow6, low6, moved6, stays6;
   logic [1:0]  state5, state6;
   logic        down5, up5, up6;
   wire [15:0] flow = down4 ? q4.amount - high4 : up4 ? high4 - q4.amount : 16'd0;
@@ -70,7 +70,7 @@ module gravity_lane (
       product1 <= 33'(q.amount) * 33'(factor0);
 
       q2 <= q1;
-      ready2 <= want1 > 18'(q1.amount) ? q1.amount : want1[15:0];
+      ready2 <= want1 > 17'(q1.amount) ? q1.amount : want1[15:0];
 
       q3 <= q2;
       holds3 <= q2.amount != 16'd0;
@@ -92,7 +92,6 @@ module gravity_lane (
       down5 <= down4;
       up5 <= up4;
       flow5 <= flow;
-      high5 <= high4;
       low5 <= down4 ? low4 + flow : low4 - flow;
 
       state6 <= state5;
@@ -100,7 +99,7 @@ module gravity_lane (
       flow6 <= flow5;
       low6 <= low5;
       moved6 <= ~down5 ? 16'd0 : energy5 < flow5 ? energy5 : flow5;
-      stays6 <= ~down5 ? energy5 : rest < high5 ? rest : high5;
+      stays6 <= ~down5 ? energy5 : rest;
 
       held7 <= held - climbs;
       low7 <= low6;
@@ -124,7 +123,7 @@ module gravity_lane (
       state9 <= state8;
 
       p.amount <= low9;
-      p.energy <= empty9 ? 16'd0 : held9 + gained9;
+      p.energy <= held9 + gained9;  // 0 if the cell is empty, as no energy exceeds its amount
       p.state <= blocked9 ? state9 : empty9 ? voxmelt_pkg::AIR : voxmelt_pkg::LIQUID;
     end
 endmodule

@@ -50,7 +50,7 @@ module gravity_stage #(
 
   always_ff @(posedge clk)
     if (en) begin
-      first <= {first[2:1], ~in_valid | (y == 12'd0)};
+      first <= {first[2:1], y == 12'd0};
       ghost <= {ghost[5:1], ~in_valid};
       gives <= {gives[LATENCY-1:7], below};
     end

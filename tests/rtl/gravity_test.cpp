@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 #include <verilated.h>
 
-#include <ios>
 #include <cstddef>
 #include <cstdint>
+#include <ios>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -98,12 +99,21 @@ std::uint64_t get(const Port& port, int at, int bits) {
   return value;
 }
 
+// What is not reset holds anything. A model takes its first bits when it is made.
+std::unique_ptr<VerilatedContext> random_context(int seed) {
+  auto context = std::make_unique<VerilatedContext>();
+  context->randReset(2);
+  context->randSeed(seed);
+  return context;
+}
+
 template <class Model>
 class Bench {
  public:
-  Bench(const World& world, int lanes) : lanes_(lanes), model_(&context_) {
-    context_.randReset(2);  // what is not reset holds anything
-    context_.randSeed(static_cast<int>(world.grid.cells()) + 1);
+  Bench(const World& world, int lanes)
+      : lanes_(lanes),
+        context_(random_context(static_cast<int>(world.grid.cells()) + 1)),
+        model_(&*context_) {
     model_.top = static_cast<std::uint16_t>(world.grid.y - 1);
     model_.factor = world.parameters.flow.fall.factor;
     model_.wall_factor = world.parameters.flow.fall.wall_factor;
@@ -161,7 +171,7 @@ class Bench {
 
   std::size_t lanes_;
   std::int64_t cycles_ = 0;
-  VerilatedContext context_;
+  std::unique_ptr<VerilatedContext> context_;
   Model model_;
 };
 
