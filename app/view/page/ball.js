@@ -37,6 +37,8 @@ export class Ball {
     }
     this.canvas.classList.toggle("placing", this.tool !== null);
     this.ring.dataset.tool = tool;
+    const does = { pour: "Pour", carve: "Carve" }[this.tool];
+    byId("notice").textContent = does ? `${does}: press on the picture. Escape ends it.` : "";
     this.ask();
     this.draw();
   }

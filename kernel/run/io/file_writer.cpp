@@ -52,6 +52,7 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // they may have no address, which fwrite must not be given
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
     fail_output(place_, "cannot write", errno);
 }
