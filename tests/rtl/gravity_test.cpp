@@ -99,7 +99,7 @@ std::uint64_t get(const Port& port, int at, int bits) {
   return value;
 }
 
-// What is not reset holds anything. A model takes its first bits when it is made.
+// A register without a reset may hold anything at first. A model takes these bits when it is made.
 std::unique_ptr<VerilatedContext> random_context(int seed) {
   auto context = std::make_unique<VerilatedContext>();
   context->randReset(2);
