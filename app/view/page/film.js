@@ -10,7 +10,13 @@ export class Film {
   hear({ frames, planned, over, problem }) {
     this.show(!over, over ? problem || "The film was stopped." : `Frame ${frames} of ${planned} is drawn.`);
   }
-  done(name) { this.show(false, `${name} is saved.`); }
+  // A browser may decline a second file that comes by itself. So the film stays behind a link.
+  done(name, file) {
+    this.show(false, "The browser keeps ");
+    const link = document.createElement("a");
+    Object.assign(link, { href: URL.createObjectURL(file), download: name, textContent: name });
+    byId("film-text").append(link, ". If it did not, press on the name.");
+  }
   show(running, text) {
     this.running = running;
     byId("film").textContent = running ? "Stop the film" : "Make film";

@@ -65,8 +65,9 @@ async function show(bytes) {
   const length = new DataView(bytes).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
   if (head.type === "file") {
-    if (head.name.endsWith(".mp4")) film.done(head.name);
-    return download(head.name, new Blob([new Uint8Array(bytes, 4 + length)]));
+    const file = new Blob([new Uint8Array(bytes, 4 + length)]);
+    if (head.name.endsWith(".mp4")) film.done(head.name, file);
+    return download(head.name, file);
   }
   if (head.type === "textures") return own.take(head, new Uint8Array(bytes, 4 + length));
   const type = head.exact ? "image/png" : "image/jpeg";
