@@ -6,7 +6,8 @@
 namespace voxmelt::hwmodel::memory {
 
 struct Command {
-  enum class Kind : std::uint8_t { activate, precharge, precharge_all, read, write, refresh };
+  // `refresh` is of all banks of a rank, and `refresh_bank` of one bank in one group or in several.
+  enum class Kind : std::uint8_t { activate, precharge, precharge_all, read, write, refresh, refresh_bank };
 
   std::int64_t cycle = 0;  // cycle of the memory's clock
   Kind kind = Kind::activate;

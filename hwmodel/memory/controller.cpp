@@ -20,8 +20,8 @@ Controller::Controller(const Parameters& parameters, const Policy& policy, int c
   reads_.reserve(policy.reads);
   writes_.reserve(policy.writes);
   // Ranks are refreshed one after the other.
-  for (int r = 0; r < parameters.ranks; ++r)
-    ranks_[r].due = parameters.refi - r * parameters.refi / parameters.ranks;
+  const int interval = parameters.by_bank ? parameters.refi_bank : parameters.refi;
+  for (int r = 0; r < parameters.ranks; ++r) ranks_[r].due = interval - r * interval / parameters.ranks;
 }
 
 bool Controller::has_room(bool write) const {
@@ -56,53 +56,14 @@ void Controller::tell(std::int64_t now, Command::Kind kind, const Location& at) 
 
 std::int64_t Controller::step(std::int64_t now, Done& done) {
   std::int64_t next = kFar;
-  if (refresh(now, next)) return now + 1;
+  // A column command of another bank may come in the same cycle as a refresh of banks, on a bus of its own.
+  const bool refreshed = refresh(now, next);
+  if (refreshed && !parameters_.by_bank) return now + 1;
   choose_side(now, next);
-  if (empty()) return next;
+  if (empty()) return refreshed ? now + 1 : next;
   bool issued = !active().empty() && column(now, next, done);
   issued |= row(now, next);
-  return issued ? now + 1 : next;
-}
-
-// The rank's banks are closed together. The rank takes no other command until it is refreshed.
-bool Controller::refresh(std::int64_t now, std::int64_t& next) {
-  for (int r = 0; r < parameters_.ranks; ++r) {
-    RankState& rank = ranks_[r];
-    if (now < rank.due) {
-      next = std::min(next, rank.due);
-      continue;
-    }
-    rank.closing = true;
-    const bool open = std::any_of(rank.banks().begin(), rank.banks().end(),
-                                  [](const BankState& bank) { return bank.open >= 0; });
-    std::int64_t from = bus_free_[0];
-    for (const BankState& bank : rank.banks()) {
-      if (!open) from = std::max(from, bank.activate);
-      if (bank.open >= 0) from = std::max(from, rank.may_precharge(bank));
-    }
-    if (now < from) {
-      next = std::min(next, from);
-      continue;
-    }
-    Location at;
-    at.rank = r;
-    if (open) {
-      for (BankState& bank : rank.banks()) rank.precharge(bank, now, parameters_.rp_all, parameters_);
-      tell(now, Command::Kind::precharge_all, at);
-      bus_free_[0] = now + parameters_.pre_slots;
-      ++counts_.precharges;
-    } else {
-      rank.refresh(now, parameters_);
-      tell(now, Command::Kind::refresh, at);
-      bus_free_[0] = now + parameters_.ref_slots;
-      rank.due += parameters_.refi;
-      rank.closing = false;
-      account_.refreshed();
-      ++counts_.refreshes;
-    }
-    return true;
-  }
-  return false;
+  return issued || refreshed ? now + 1 : next;
 }
 
 void Controller::choose_side(std::int64_t now, std::int64_t& next) {
@@ -133,9 +94,8 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
   const std::size_t owned = bank_of(queue.front().at);
   for (std::size_t i = 0; i < queue.size(); ++i) {
     Entry& entry = queue[i];
-    RankState& rank = ranks_[entry.at.rank];
-    BankState& bank = rank.bank(entry.at.group, entry.at.bank);
-    if (bank.open != entry.at.row || rank.closing) continue;
+    BankState& bank = ranks_[entry.at.rank].bank(entry.at.group, entry.at.bank);
+    if (bank.open != entry.at.row || bank.closing) continue;
     if (starving && i != 0 && bank_of(entry.at) == owned) continue;
     const std::int64_t from =
         std::max({bank.column, columns_.from(entry.write, entry.at.rank, entry.at.group), bus});
@@ -149,6 +109,8 @@ bool Controller::column(std::int64_t now, std::int64_t& next, Done& done) {
     const int latency = entry.write ? p.cwl + p.write_more : p.cl + p.read_more;
     const std::int64_t end = now + latency + p.beats();
     bank.precharge = std::max(bank.precharge, entry.write ? end + p.wr : now + p.rtp);
+    if (bank.refreshed) account_.refreshed();
+    bank.refreshed = false;
     account_.column(now + latency, p.beats(), latency, entry.write, entry.at.rank, entry.activated, counts_);
     ++counts_.columns;
     Location at = entry.at;
@@ -191,7 +153,7 @@ bool Controller::row_of(Queue& queue, bool starving, std::uint64_t& seen, std::i
     seen |= bit;
     RankState& rank = ranks_[entry.at.rank];
     BankState& bank = rank.bank(entry.at.group, entry.at.bank);
-    if (rank.closing || bank.open == entry.at.row) continue;
+    if (bank.closing || bank.open == entry.at.row) continue;
     if ((hit & bit) != 0 && !(starving && i == 0)) continue;
     const bool close = bank.open >= 0;
     const std::int64_t from =

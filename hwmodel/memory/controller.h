@@ -57,7 +57,10 @@ class Controller {
  private:
   using Queue = std::vector<Entry>;
 
+  // These are in refresh.cpp.
   bool refresh(std::int64_t now, std::int64_t& next);
+  bool refresh_rank(int rank, std::int64_t now, std::int64_t& next);
+  bool refresh_banks(int rank, std::int64_t now, std::int64_t& next);
   void choose_side(std::int64_t now, std::int64_t& next);
   bool column(std::int64_t now, std::int64_t& next, Done& done);
   bool row(std::int64_t now, std::int64_t& next);

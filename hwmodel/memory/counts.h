@@ -11,6 +11,7 @@ struct Counts {
   // Divide the requests: the row was open, no row was open, or another row was open.
   std::int64_t hits = 0, misses = 0, conflicts = 0;
   std::int64_t activates = 0, precharges = 0, refreshes = 0, columns = 0;  // commands
+  std::int64_t bank_refreshes = 0;                                         // REF of some banks
   std::int64_t read_to_write = 0, write_to_read = 0;                       // turnarounds of a channel
   std::int64_t active = 0;  // cycles of every rank in which a row was open or a refresh ran
   std::int64_t held = 0;    // requests that waited for an older one to the same burst
@@ -36,6 +37,7 @@ struct Counts {
     precharges += o.precharges;
     refreshes += o.refreshes;
     columns += o.columns;
+    bank_refreshes += o.bank_refreshes;
     read_to_write += o.read_to_write;
     write_to_read += o.write_to_read;
     active += o.active;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "hwmodel/memory/ratio.h"
+
 namespace voxmelt::hwmodel::memory {
 
 double standby_of_a_row(const Rail& rail, const Parameters& p) {
@@ -24,6 +26,9 @@ Energy energy_of(const Counts& counts, const Parameters& p) {
     sum.read += cycle * times(counts.reads) * columns * p.beats() * (rail.idd4r - rail.idd3n);
     sum.write += cycle * times(counts.writes) * columns * p.beats() * (rail.idd4w - rail.idd3n);
     sum.refresh += cycle * times(counts.refreshes) * p.rfc * (rail.idd5 - rail.idd3n);
+    // A refresh of banks takes the share of its rows.
+    sum.refresh +=
+        cycle * times(counts.bank_refreshes) * ratio(p.refi_bank, p.refi) * p.rfc * (rail.idd5 - rail.idd3n);
     sum.background += cycle * (times(counts.active) * rail.idd3n + closed * rail.idd2n);
   }
   return sum;

@@ -46,6 +46,12 @@ struct Parameters {
   int read_to_write = 0;              // cycles without data between read and written data
   int rank_switch = 0;                // cycles without data between those of two ranks
   int refi = 0, rfc = 0;              // between two REF; REF to the next command
+
+  // A refresh of banks (REFpb, REFsb) has its own times. A sheet may have them, and choose it or not.
+  bool by_bank = false;                // chooses it
+  int groups_at_once = 0;              // groups in which one command refreshes a bank; 0: the sheet has none
+  int refi_bank = 0, rfc_bank = 0;     // between two of them in the mean; to the next command for these banks
+  int ref_to_ref = 0, ref_to_act = 0;  // to the next one, and to ACT of other banks
   int act_slots = 1, column_slots = 1, pre_slots = 1, ref_slots = 1;  // cycles of the command bus
   bool two_buses = false;    // column commands have a bus of their own
   int interface_cycles = 0;  // further cycles of a read on its way through controller and pins
@@ -57,6 +63,9 @@ struct Parameters {
   int column_bytes() const { return width_bits / 8 * transfers; }
   int columns_of_request() const { return kBurst / column_bytes(); }  // column commands
   int banks_of_rank() const { return groups * banks; }
+  int refreshes_of_rank() const {
+    return banks_of_rank() / groups_at_once;
+  }  // of banks, until it is their turn again
   std::int64_t row_bytes() const { return std::int64_t{columns} * (width_bits / 8); }
   std::int64_t bytes() const { return row_bytes() * rows * banks_of_rank() * ranks * channels; }
   // Returns the peak rate in 10^6 bytes a second: 64 bits at both edges of 1200 MHz give 19200.

@@ -19,6 +19,8 @@ inline constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min(
 struct BankState {
   int open = -1;                                         // open row; -1: none
   std::int64_t activate = 0, column = 0, precharge = 0;  // first cycle in which each may come
+  bool closing = false;                                  // it is closed for a refresh
+  bool refreshed = false;                                // and nothing has moved since
 };
 
 // Tracks the rows of one rank.
@@ -40,11 +42,10 @@ class RankState {
   void activate(BankState& bank, int group, int row, std::int64_t now, const Parameters& p) {
     account(now);
     ++open_;
-    bank = {row, now + p.rc, now + p.rcd, now + p.ras};
+    bank = {row, now + p.rc, now + p.rcd, now + p.ras, bank.closing, bank.refreshed};
     for (int g = 0; g < std::ssize(groups_); ++g)
       groups_[g] = std::max(groups_[g], now + (g == group ? p.rrd_l : p.rrd_s));
-    four_[oldest_] = now;
-    oldest_ = (oldest_ + 1) % four_.size();
+    notes_activation(now);
   }
   std::int64_t may_precharge(const BankState& bank) const {
     return std::max(bank.precharge, next_precharge_);
@@ -62,16 +63,38 @@ class RankState {
     for (BankState& bank : banks_) bank.activate = std::max(bank.activate, now + p.rfc);
   }
 
+  // A refresh of some banks counts as ACT for the four of tFAW.
+  std::int64_t may_refresh(const BankState& bank, int group, const Parameters& p) const {
+    return std::max(may_activate(bank, group, p), next_refresh_);
+  }
+  void refresh_bank(int bank_of_group, int group, std::int64_t now, const Parameters& p) {
+    account(now);
+    refreshes_until_ = std::max(refreshes_until_, now + p.rfc_bank);
+    for (int g = group; g < std::ssize(groups_); g += p.groups / p.groups_at_once) {
+      BankState& of_set = bank(g, bank_of_group);
+      of_set.activate = std::max(of_set.activate, now + p.rfc_bank);
+      of_set.closing = false;
+      of_set.refreshed = true;
+    }
+    for (std::int64_t& from : groups_) from = std::max(from, now + p.ref_to_act);
+    next_refresh_ = now + p.ref_to_ref;
+    notes_activation(now);
+  }
+
   // Counts the cycles before `now` in which a row was open or a refresh ran.
   std::int64_t active(std::int64_t now) const {
     const std::int64_t end = open_ > 0 ? now : std::min(now, refreshes_until_);
     return active_ + std::max<std::int64_t>(0, end - accounted_);
   }
 
-  std::int64_t due;      // cycle of the next refresh
-  bool closing = false;  // its banks are closed for the refresh
+  std::int64_t due;  // cycle of the next refresh
+  int turn = 0;      // number of the banks that it will be of
 
  private:
+  void notes_activation(std::int64_t now) {
+    four_[oldest_] = now;
+    oldest_ = (oldest_ + 1) % four_.size();
+  }
   void account(std::int64_t now) {
     active_ = active(now);
     accounted_ = now;
@@ -81,7 +104,7 @@ class RankState {
   std::vector<std::int64_t> groups_;  // first cycle in which a bank of each may be activated
   std::vector<std::int64_t> four_;    // cycles of the last four ACT
   std::size_t oldest_ = 0;
-  std::int64_t next_precharge_ = kLongAgo;
+  std::int64_t next_precharge_ = kLongAgo, next_refresh_ = kLongAgo;
   int banks_of_group_;
   int open_ = 0;  // banks with an open row
   std::int64_t active_ = 0, accounted_ = 0, refreshes_until_ = 0;

@@ -61,6 +61,12 @@ constexpr const char* kKeys[] = {"mhz",
                                  "rank_switch",
                                  "rfc",
                                  "refi",
+                                 "refresh",
+                                 "groups_at_once",
+                                 "refi_bank",
+                                 "rfc_bank",
+                                 "ref_to_ref",
+                                 "ref_to_act",
                                  "act_slots",
                                  "column_slots",
                                  "pre_slots",
@@ -83,6 +89,21 @@ void read_shape(scene::Reader& from, memory::Parameters& p) {
   if (p.width_bits < 8 || p.transfers < p.data_rate || p.column_bytes() > memory::kBurst)
     from.fail("transfers", ": a burst must have whole bytes, and 64 of them at most, and take whole cycles");
   if (p.row_bytes() < memory::kBurst) from.fail("columns", ": a row must have 64 bytes");
+}
+
+// A sheet has all of the numbers, or none.
+void read_bank_refresh(scene::Reader& from, memory::Parameters& p) {
+  p.by_bank = from.choice("refresh", {"all", "bank"}, 0) == 1;
+  const auto named = {"groups_at_once", "refi_bank", "rfc_bank", "ref_to_ref", "ref_to_act"};
+  if (!p.by_bank && std::none_of(named.begin(), named.end(), [&](const char* key) { return from.has(key); }))
+    return;
+  p.groups_at_once = power_of_two(from, "groups_at_once", p.groups);
+  p.rfc_bank = from.integer("rfc_bank", 1, 10000);
+  p.ref_to_ref = from.integer("ref_to_ref", 1, 10000);
+  p.ref_to_act = from.integer("ref_to_act", 1, 10000);
+  // Other banks must have time for their requests.
+  const int least = std::max(2 * p.ref_to_ref, 2 * (p.rfc_bank + p.ras + p.rp) / p.refreshes_of_rank());
+  p.refi_bank = from.integer("refi_bank", least, 10'000'000);
 }
 
 void read_cycles(scene::Reader& from, memory::Parameters& p) {
@@ -113,6 +134,7 @@ void read_cycles(scene::Reader& from, memory::Parameters& p) {
   // A refresh must leave time for requests.
   p.rfc = cycles("rfc", 1, kMost);
   p.refi = cycles("refi", 2 * (p.rfc + p.ras + p.rp_all), 1000 * kMost);
+  read_bank_refresh(from, p);
   p.act_slots = cycles("act_slots", 1, 16);
   p.column_slots = cycles("column_slots", 1, 16);
   p.pre_slots = cycles("pre_slots", 1, 16);

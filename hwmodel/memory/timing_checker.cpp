@@ -25,6 +25,8 @@ std::string words(Kind kind) {
       return "RD";
     case Kind::write:
       return "WR";
+    case Kind::refresh_bank:
+      return "REFB";
     case Kind::refresh:
       break;
   }
@@ -95,16 +97,19 @@ void TimingChecker::issued(const Command& c) {
     case Kind::refresh:
       check_refresh(rank, c);
       break;
+    case Kind::refresh_bank:
+      check_bank_refresh(rank, c);
+      break;
   }
 }
 
 void TimingChecker::check_bus(Channel& channel, const Command& c) {
   std::int64_t& until = channel.bus_until[sheet_.two_buses && is_column(c.kind) ? 1 : 0];
   must("command bus", c.cycle >= until, c);
-  const int slots = c.kind == Kind::activate  ? sheet_.act_slots
-                    : c.kind == Kind::refresh ? sheet_.ref_slots
-                    : is_column(c.kind)       ? sheet_.column_slots
-                                              : sheet_.pre_slots;
+  const int slots = c.kind == Kind::activate                                  ? sheet_.act_slots
+                    : c.kind == Kind::refresh || c.kind == Kind::refresh_bank ? sheet_.ref_slots
+                    : is_column(c.kind)                                       ? sheet_.column_slots
+                                                                              : sheet_.pre_slots;
   until = c.cycle + slots;
 }
 
@@ -112,6 +117,8 @@ void TimingChecker::check_activate(Rank& rank, const Command& c) {
   Bank& bank = bank_of(rank, c);
   must("ACT of an open bank", !bank.open, c);
   must("row", c.row >= 0 && c.row < sheet_.rows, c);
+  at_least("tRFC of a bank", bank.refresh, sheet_.rfc_bank, c);
+  at_least("REFB to ACT", rank.bank_refresh, sheet_.ref_to_act, c);
   at_least("tRC", bank.activate, sheet_.rc, c);
   at_least("tRP", bank.precharge, bank.closed_with_all ? sheet_.rp_all : sheet_.rp, c);
   for (int g = 0; g < std::ssize(rank.groups); ++g) {
@@ -183,6 +190,42 @@ void TimingChecker::check_data(Channel& channel, const Command& c) {
   channel.data_of_rank = c.rank;
 }
 
+bool TimingChecker::enough_refreshes(const Rank& rank, std::int64_t cycle) const {
+  if (!sheet_.by_bank) return rank.refreshes + kMostPostponed >= cycle / sheet_.refi;
+  const std::int64_t round = sheet_.banks_of_rank() / sheet_.groups_at_once;
+  return rank.bank_refreshes + kMostPostponed * round >= cycle / sheet_.refi_bank;
+}
+
+// One command refreshes a bank of the named group, and those of the groups that differ from it in the highest
+// bits only. No bank is refreshed again before all have been (JESD209-4, "Refresh command").
+void TimingChecker::check_bank_refresh(Rank& rank, const Command& c) {
+  must("REFB of a sheet without it", sheet_.by_bank, c);
+  if (!sheet_.by_bank) return;
+  at_least("REFB to REFB", rank.bank_refresh, sheet_.ref_to_ref, c);
+  at_least("tFAW", rank.activates[3], sheet_.faw, c);
+  std::int64_t fewest = rank.banks.front().refreshes;
+  for (const Bank& bank : rank.banks) fewest = std::min(fewest, bank.refreshes);
+  const int low_bits = sheet_.groups / sheet_.groups_at_once - 1;
+  for (int g = 0; g < sheet_.groups; ++g) {
+    const bool refreshed = (g & low_bits) == (c.group & low_bits);
+    at_least("tRRD before REFB", rank.groups[g].activate, refreshed ? sheet_.rrd_l : sheet_.rrd_s, c);
+    if (!refreshed) continue;
+    Bank& bank = rank.banks[g * sheet_.banks + c.bank];
+    must("REFB of an open bank", !bank.open, c);
+    must("REFB: its turn", bank.refreshes == fewest, c);
+    at_least("tRP before REFB", bank.precharge, bank.closed_with_all ? sheet_.rp_all : sheet_.rp, c);
+    at_least("tRC before REFB", bank.activate, sheet_.rc, c);
+    at_least("tRFC of a bank", bank.refresh, sheet_.rfc_bank, c);
+    bank.refresh = c.cycle;
+    ++bank.refreshes;
+  }
+  rank.bank_refresh = c.cycle;
+  ++rank.bank_refreshes;
+  must("tREFI: how many", enough_refreshes(rank, c.cycle), c);
+  std::rotate(rank.activates.begin(), rank.activates.begin() + 3, rank.activates.end());
+  rank.activates[0] = c.cycle;
+}
+
 void TimingChecker::check_refresh(Rank& rank, const Command& c) {
   for (const Bank& bank : rank.banks) {
     must("REF with an open bank", !bank.open, c);
@@ -193,7 +236,7 @@ void TimingChecker::check_refresh(Rank& rank, const Command& c) {
   must("tREFI: the gap", c.cycle - before <= std::int64_t{kMostPostponed + 1} * sheet_.refi, c);
   rank.refresh = c.cycle;
   ++rank.refreshes;
-  must("tREFI: how many", rank.refreshes + kMostPostponed >= c.cycle / sheet_.refi, c);
+  must("tREFI: how many", enough_refreshes(rank, c.cycle), c);
 }
 
 void TimingChecker::finish(std::int64_t cycle) {
@@ -202,7 +245,7 @@ void TimingChecker::finish(std::int64_t cycle) {
   end.kind = Kind::refresh;
   for (Channel& channel : channels_)
     for (Rank& rank : channel.ranks) {
-      must("tREFI: how many", rank.refreshes + kMostPostponed >= cycle / sheet_.refi, end);
+      must("tREFI: how many", enough_refreshes(rank, cycle), end);
     }
 }
 

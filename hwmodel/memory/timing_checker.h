@@ -33,6 +33,7 @@ class TimingChecker final : public CommandListener {
     int row = 0;
     std::int64_t activate = kNever, precharge = kNever, read = kNever, write = kNever;
     bool closed_with_all = false;
+    std::int64_t refresh = kNever, refreshes = 0;  // of banks
   };
   struct Group {
     std::int64_t activate = kNever, read = kNever, write = kNever;
@@ -43,6 +44,7 @@ class TimingChecker final : public CommandListener {
     std::array<std::int64_t, 4> activates{kNever, kNever, kNever, kNever};  // the newest is first
     std::int64_t precharge = kNever;                                        // of any bank
     std::int64_t refresh = kNever, refreshes = 0;
+    std::int64_t bank_refresh = kNever, bank_refreshes = 0;  // of any of its banks
   };
   struct Channel {
     std::vector<Rank> ranks;
@@ -61,6 +63,8 @@ class TimingChecker final : public CommandListener {
   void check_column(Channel& channel, Rank& rank, const Command& command);
   void check_data(Channel& channel, const Command& command);
   void check_refresh(Rank& rank, const Command& command);
+  void check_bank_refresh(Rank& rank, const Command& command);
+  bool enough_refreshes(const Rank& rank, std::int64_t cycle) const;
   Bank& bank_of(Rank& rank, const Command& command);
 
   Parameters sheet_;

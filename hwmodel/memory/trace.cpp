@@ -25,7 +25,7 @@ void TraceWriter::taken(std::int64_t memory_cycle, const Request& request) {
 }
 
 void CommandWriter::issued(const Command& c) {
-  constexpr std::array kNames{"ACT", "PRE", "PREA", "RD", "WR", "REF"};
+  constexpr std::array kNames{"ACT", "PRE", "PREA", "RD", "WR", "REF", "REFB"};
   to_ << begin_ + c.cycle << ", " << kNames[static_cast<std::size_t>(c.kind)] << ", " << c.channel << ", "
       << c.rank << ", " << c.group << ", " << c.bank << ", " << c.row << ", " << c.column << '\n';
 }

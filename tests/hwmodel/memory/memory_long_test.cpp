@@ -16,6 +16,7 @@ TEST(MemoryLong, AHundredMillionCommandsKeepTheRules) {
   for (std::uint64_t seed = 0; commands < 100'000'000; ++seed) {
     std::vector<Parameters> all = all_sheets();
     all.push_back(two_ranks());
+    for (const Parameters& p : all_by_bank()) all.push_back(p);
     for (const Parameters& p : all) {
       Dram dram(p, seed % 2 == 0 ? 200 : 400);
       TimingChecker checker(p);

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/memory/address_map.h"
@@ -30,7 +32,7 @@ struct Recorder final : CommandListener {
 std::string words(const std::vector<Command>& commands) {
   std::string text;
   for (const Command& c : commands) {
-    constexpr const char* kNames[] = {"ACT", "PRE", "PREA", "RD", "WR", "REF"};
+    constexpr const char* kNames[] = {"ACT", "PRE", "PREA", "RD", "WR", "REF", "REFB"};
     text += std::string(kNames[static_cast<std::size_t>(c.kind)]) + " " + std::to_string(c.cycle) + "; ";
   }
   return text;
@@ -260,6 +262,52 @@ TEST(Memory, AnIdleMemoryIsRefreshedOnTime) {
   EXPECT_EQ(words(recorder.all), "REF 4680; REF 9360; REF 14040; REF 18720; REF 23400; ");
 }
 
+// The first bank is closed when it is due, and refreshed tRP later. The second one opens meanwhile, as soon
+// as tRRD lets it, and the first one tRFCpb after its refresh.
+TEST(Memory, OneBankIsRefreshedWhileOthersWork) {
+  Parameters p = by_bank("lpddr4-3200");
+  p.channels = 1;
+  Dram dram(p, p.mhz);
+  Recorder recorder;
+  dram.listen(&recorder);
+  const int port = dram.open_port(nullptr);
+  dram.put(port, {0, 0, false});
+  for (int i = 0; i < 815; ++i) dram.cycle();
+  dram.put(port, {64, 0, false});
+  dram.put(port, {32 * 64, 0, false});
+  ASSERT_EQ(locate(32 * 64, p).bank, 1);
+  for (int i = 0; i < 600; ++i) dram.cycle();
+  EXPECT_EQ(words(recorder.all),
+            "ACT 0; RD 29; RD 37; PRE 780; REFB 809; ACT 825; RD 854; RD 862; ACT 953; RD 982; RD 990; ");
+  EXPECT_EQ(dram.counts().bank_refreshes, 1);
+  EXPECT_EQ(recorder.all[4].bank, 0);
+}
+
+// DDR5 refreshes a bank of each group with one command, LPDDR5 one of two groups, and others one alone.
+TEST(Memory, BanksAreRefreshedInTurn) {
+  for (Parameters p : all_by_bank()) {
+    p.channels = 1;
+    Dram dram(p, p.mhz);
+    Recorder recorder;
+    dram.listen(&recorder);
+    const int round = p.groups * p.banks / p.groups_at_once;
+    for (int i = 0; i < (round + 1) * p.refi_bank + 1; ++i) dram.cycle();
+    ASSERT_EQ(std::ssize(recorder.all), round + 1) << p.name;
+    std::map<std::pair<int, int>, int> seen;
+    for (int i = 0; i <= round; ++i) {
+      const Command& c = recorder.all[i];
+      EXPECT_EQ(c.kind, Command::Kind::refresh_bank);
+      EXPECT_EQ(c.cycle, (i + 1) * std::int64_t{p.refi_bank}) << p.name;
+      ++seen[{c.group, c.bank}];
+    }
+    EXPECT_EQ(std::ssize(seen), round) << p.name;
+  }
+  EXPECT_EQ(by_bank("ddr5-4800").refreshes_of_rank(), 4);
+  EXPECT_EQ(by_bank("lpddr4-3200").refreshes_of_rank(), 8);
+  EXPECT_EQ(by_bank("lpddr5-6400").refreshes_of_rank(), 8);
+  EXPECT_EQ(by_bank("hbm3").refreshes_of_rank(), 16);
+}
+
 TEST(Memory, ClocksDoNotDrift) {
   for (const int mhz : {7, 200, 333, 1200, 2000}) {
     Dram dram(sheet("ddr4-2400"), mhz);
@@ -298,6 +346,9 @@ TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
   std::vector<Parameters> all = all_sheets();
   all.push_back(two_ranks());
   all.push_back(slow_bus);
+  for (const char* name : {"ddr5-4800", "lpddr4-3200", "lpddr5-6400", "hbm2"}) all.push_back(by_bank(name));
+  all.push_back(slow_bus);
+  all.back().by_bank = true;
   for (const Parameters& p : all) {
     for (const int mhz : {150, 400}) {
       Dram dram(p, mhz);
@@ -321,7 +372,9 @@ TEST(Memory, KeepsTheRulesTheOrderAndItsAccounts) {
       EXPECT_EQ(counts.cycles(), dram.memory_cycles() * p.channels);
       EXPECT_EQ(counts.busy, (counts.reads + counts.writes) * p.columns_of_request() * p.beats());
       EXPECT_GT(counts.held, 100);
-      EXPECT_EQ(checker.commands(), counts.activates + counts.precharges + counts.refreshes + counts.columns);
+      EXPECT_EQ(checker.commands(), counts.activates + counts.precharges + counts.refreshes +
+                                        counts.bank_refreshes + counts.columns);
+      EXPECT_EQ(counts.refreshes == 0, p.by_bank);
     }
   }
 }
@@ -398,6 +451,13 @@ TEST(Memory, StreamsComeNearThePeak) {
     EXPECT_GE(share(one), 0.89) << name;
     EXPECT_GE(share(three), 0.74) << name;
     EXPECT_LE(share(one), 1 - static_cast<double>(p.rfc) / p.refi) << name;  // no more than refresh leaves
+    if (p.groups_at_once == 0) continue;
+    p.by_bank = true;
+    const Counts alone = saturated(p, {{0, false}}),
+                 all = saturated(p, {{0, false}, {kFar, true}, {2 * kFar, false}});
+    std::cout << name << ", refreshed by banks: busy " << 100 * share(alone) << " %, three streams "
+              << 100 * share(all) << " %\n";
+    EXPECT_GT(share(alone), share(one)) << name;
   }
 }
 

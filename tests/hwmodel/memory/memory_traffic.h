@@ -19,6 +19,18 @@ inline std::vector<Parameters> all_sheets() {
   for (const MemoryFile& file : memory_files()) all.push_back(sheet(file.name));
   return all;
 }
+// Refreshes banks one after the other, where the sheet has numbers for that.
+inline Parameters by_bank(const std::string& name) {
+  Parameters p = sheet(name);
+  p.by_bank = true;
+  return p;
+}
+inline std::vector<Parameters> all_by_bank() {
+  std::vector<Parameters> all;
+  for (const Parameters& p : all_sheets())
+    if (p.groups_at_once > 0) all.push_back(by_bank(p.name));
+  return all;
+}
 inline Parameters two_ranks() {
   Parameters p = sheet("ddr4-2400");
   p.ranks = 2;

@@ -91,6 +91,10 @@ TEST(MemoryPreset, RefusesWhatCannotBe) {
   EXPECT_NE(complaint("refi = 9360", "refi = 500").find("refi"), std::string::npos);
   EXPECT_NE(complaint("cl = 17", "latency = 17").find("cl"), std::string::npos);
   EXPECT_NE(complaint("rtp = 9", "rtp = 9\nrtq = 9").find("rtq"), std::string::npos);
+  EXPECT_NE(complaint("rfc = 420 ", "refresh = \"bank\"\nrfc = 420 ").find("groups_at_once is missing"),
+            std::string::npos);
+  EXPECT_NE(complaint("rfc = 420 ", "rfc_bank = 9\nrfc = 420 ").find("groups_at_once is missing"),
+            std::string::npos);
   EXPECT_NE(complaint("idd0 = 48", "idd0 = 40").find("idd0"), std::string::npos) << "below standby";
   EXPECT_NE(complaint("idd4r = 135", "idd4r = 42").find("idd4r"), std::string::npos);
   EXPECT_NE(complaint("idd5 = 250", "idd5b = 250").find("idd5"), std::string::npos);
