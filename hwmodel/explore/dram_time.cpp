@@ -89,6 +89,7 @@ std::string beyond_bounds(const memory::Parameters& p, int clock_mhz) {
   limit(p.channels, kMostChannels, "channels");
   limit(p.ranks, 1, "ranks");
   limit(clock_mhz, kMostClock, "MHz");
+  if (p.by_bank) beyond += fmt::format("{}refreshes of banks", beyond.empty() ? "" : ", ");
   return beyond;
 }
 

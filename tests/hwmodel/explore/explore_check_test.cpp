@@ -99,6 +99,10 @@ TEST(ExploreCheck, TheBoundsAreAShareAndARefresh) {
   EXPECT_EQ(
       beyond_bounds(hbm2, 501),
       "401 ns through controller and pins (at most 400), 64 channels (at most 32), 501 MHz (at most 500)");
+  memory::Parameters by_bank = load_memory("lpddr4-3200", "test");
+  EXPECT_EQ(beyond_bounds(by_bank, 500), "");
+  by_bank.by_bank = true;
+  EXPECT_EQ(beyond_bounds(by_bank, 500), "refreshes of banks");
 }
 
 // A single token is never kept waiting.

@@ -3,7 +3,9 @@
 // Ramulator's order (row, bank, group, rank, column, channel). So its cycles can be compared
 // (docs/hardware/memory.md).
 //
-//   replay_trace MEMORY IN.trace OUT.trace      lines: 0x00001240 R
+//   replay_trace MEMORY IN.trace OUT.trace [READS]      lines: 0x00001240 R
+//
+// READS are the entries of the queue of reads, if not those of the controller.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -47,8 +49,8 @@ std::int64_t for_ramulator(const Location& at, const Parameters& p) {
 }
 
 // Sends the requests by one port, at the memory's own clock.
-void run(const std::vector<Request>& requests, const Parameters& p) {
-  Dram dram(p, p.mhz);
+void run(const std::vector<Request>& requests, const Parameters& p, const Policy& policy) {
+  Dram dram(p, p.mhz, policy);
   const int port = dram.open_port(nullptr);
   for (std::size_t next = 0; next < requests.size() || !dram.idle(); dram.cycle()) {
     while (dram.reply(port) != nullptr) dram.take(port);
@@ -60,7 +62,7 @@ void run(const std::vector<Request>& requests, const Parameters& p) {
              energy_of(counts, p).all());
 }
 
-void replay(const std::string& memory, const std::string& in, const std::string& out) {
+void replay(const std::string& memory, const std::string& in, const std::string& out, const Policy& policy) {
   const Parameters p = load_memory(memory, "replay_trace");
   const std::vector<Request> requests = requests_of(in);
   std::ofstream stream(out);
@@ -69,19 +71,21 @@ void replay(const std::string& memory, const std::string& in, const std::string&
                           request.write ? 'W' : 'R');
   stream.close();
   if (!stream) throw std::runtime_error(out + ": cannot be written");
-  run(requests, p);
+  run(requests, p, policy);
 }
 
 }  // namespace
 }  // namespace voxmelt::hwmodel::memory
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fputs("replay_trace MEMORY IN.trace OUT.trace\n", stderr);
+  if (argc != 4 && argc != 5) {
+    std::fputs("replay_trace MEMORY IN.trace OUT.trace [READS]\n", stderr);
     return 2;
   }
   try {
-    voxmelt::hwmodel::memory::replay(argv[1], argv[2], argv[3]);
+    voxmelt::hwmodel::memory::Policy policy;
+    if (argc == 5) policy.reads = std::stoi(argv[4]);
+    voxmelt::hwmodel::memory::replay(argv[1], argv[2], argv[3], policy);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "replay_trace: %s\n", error.what());
     return 2;
