@@ -19,6 +19,9 @@ void open(std::ofstream& file, const std::string& path) {
 void TraceWriter::taken(std::int64_t memory_cycle, const Request& request) {
   if (format_ == TraceFormat::ramulator)
     to_ << "0x" << std::hex << request.address << std::dec << (request.write ? " W\n" : " R\n");
+  else if (format_ == TraceFormat::dramsim3)
+    to_ << "0x" << std::hex << request.address << std::dec << (request.write ? " WRITE " : " READ ")
+        << begin_ + memory_cycle << '\n';
   else
     to_ << begin_ + memory_cycle << ": " << (request.write ? "write" : "read") << " 0x" << std::hex
         << request.address << std::dec << '\n';
@@ -31,7 +34,9 @@ void CommandWriter::issued(const Command& c) {
 }
 
 TraceFiles::TraceFiles(const std::string& requests, const std::string& commands)
-    : format_(requests.ends_with(".stl") ? TraceFormat::dramsys : TraceFormat::ramulator) {
+    : format_(requests.ends_with(".stl")   ? TraceFormat::dramsys
+              : requests.ends_with(".trc") ? TraceFormat::dramsim3
+                                           : TraceFormat::ramulator) {
   open(request_file_, requests);
   open(command_file_, commands);
 }

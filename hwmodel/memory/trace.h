@@ -15,6 +15,7 @@ namespace voxmelt::hwmodel::memory {
 enum class TraceFormat : std::uint8_t {
   ramulator,  // "0x00001240 R": the memory trace of Ramulator; it has no times
   dramsys,    // "17: read 0x1240": DRAMSys's .stl, with the cycle of the memory's clock
+  dramsim3,   // "0x1240 READ 17": the same for DRAMsim3
 };
 
 // Cycles count from `begin` on, the cycles of memories before this one.
@@ -45,8 +46,8 @@ class CommandWriter final : public CommandListener {
 // Holds the files of both traces. They go on over several memories, one after the other.
 class TraceFiles {
  public:
-  // A path is empty for no trace. Requests are written for DRAMSys if their path ends in ".stl". Throws
-  // std::runtime_error if a file cannot be written.
+  // A path is empty for no trace. Requests are written for DRAMSys if their path ends in ".stl", for DRAMsim3
+  // if it ends in ".trc", and else for Ramulator. Throws std::runtime_error if a file cannot be written.
   TraceFiles(const std::string& requests, const std::string& commands);
 
   // Logs what this memory does, and counts its cycles from `begin` on. Both must live as long as it works.

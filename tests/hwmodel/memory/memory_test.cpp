@@ -462,10 +462,13 @@ TEST(Memory, StreamsComeNearThePeak) {
 }
 
 TEST(Memory, TracesOfRequests) {
-  std::ostringstream ramulator, dramsys;
-  for (const bool stl : {false, true}) {
+  std::ostringstream ramulator, dramsys, dramsim3;
+  const std::vector<std::pair<std::ostringstream*, TraceFormat>> all{{&ramulator, TraceFormat::ramulator},
+                                                                     {&dramsys, TraceFormat::dramsys},
+                                                                     {&dramsim3, TraceFormat::dramsim3}};
+  for (const auto& [to, format] : all) {
     Dram dram(sheet("ddr4-2400"), 200);
-    TraceWriter writer(stl ? dramsys : ramulator, stl ? TraceFormat::dramsys : TraceFormat::ramulator);
+    TraceWriter writer(*to, format);
     dram.trace(&writer);
     const int port = dram.open_port(nullptr);
     dram.put(port, {0x1240, 0, false});
@@ -475,6 +478,7 @@ TEST(Memory, TracesOfRequests) {
     dram.cycle();
   }
   EXPECT_EQ(ramulator.str(), "0x1240 R\n0xabc0 W\n0x40 R\n");
+  EXPECT_EQ(dramsim3.str(), "0x1240 READ 0\n0xabc0 WRITE 6\n0x40 READ 7\n");
   EXPECT_EQ(dramsys.str(), "0: read 0x1240\n6: write 0xabc0\n7: read 0x40\n");
 }
 
