@@ -11,6 +11,7 @@
 #include "app/print.h"
 #include "app/run_ahead.h"
 #include "app/verify_command.h"
+#include "app/verify_energy.h"
 #include "app/verify_report.h"
 #include "app/verify_shrink.h"
 #include "app/verify_sizes.h"
@@ -54,17 +55,19 @@ std::string quiet_verdict(const hwmodel::VerifyReport& report) {
                                                     : "; planted ELSEWHERE");
 }
 
-void print_result(const VerifyCommand& command, const scene::Scene& scene,
-                  const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                  const hwmodel::Configuration& c, const std::string& fast,
-                  const std::optional<DramAccount>& dram) {
+void print_result(const VerifyCommand& command, const scene::Scene& scene, const Verified& run,
+                  const std::string& fast) {
+  const hwmodel::VerifyReport& report = run.report;
+  const hwmodel::Configuration& c = run.configuration;
   if (command.common.quiet)
     return print("{}: {} cycles, predicted {}\n{}", name_of(scene), report.cycles, report.predicted_cycles,
                  quiet_verdict(report));
   print("{}: lanes {}, cascade {}, fifo depth {}, stall seed {}; steps {} to {}\n", name_of(scene), c.lanes,
         c.cascade, c.fifo_depth, c.stall_seed, report.first_step, report.first_step + report.steps);
-  print("{}", hwmodel::table_of(report, design, c));
-  if (dram && report.mismatch == nullptr) print("{}", hwmodel::memory_text(dram->counts, dram->parameters));
+  print("{}", hwmodel::table_of(report, run.design, c));
+  if (run.dram && report.mismatch == nullptr)
+    print("{}", hwmodel::memory_text(run.dram->counts, run.dram->parameters));
+  if (run.cost) print("{}", text_of(*run.cost, run.clock_mhz));
   const auto stages = std::count_if(
       report.stages.begin(), report.stages.end(),
       [](const hwmodel::StageReport& stage) { return is_stage(stage.kind) && stage.cascade == 0; });
@@ -135,11 +138,17 @@ hwmodel::VerifyOptions options_of(const Job& job, std::uint32_t first_step, hwmo
   return options;
 }
 
-void write_reports(const Job& job, const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                   const std::optional<DramAccount>& dram) {
-  const VerifyCommand& command = job.command;
-  write_pipeline_report({command.common, command.picture.html}, name_of(job.scene), report, design,
-                        job.preset.configuration, dram);
+// A run that ended early has no cost: some numbers would be those of half a pass.
+void add_cost(Verified& run) {
+  if (run.report.mismatch != nullptr) return;
+  std::optional<hwmodel::memory::Energy> dram;
+  if (run.dram && !run.dram->parameters.rails.empty())
+    dram = hwmodel::memory::energy_of(run.dram->counts, run.dram->parameters);
+  run.cost = cost_of(run.report, run.design, run.clock_mhz, dram);
+}
+
+void write_reports(const Job& job, const Verified& run) {
+  write_pipeline_report({job.command.common, job.command.picture.html}, name_of(job.scene), run);
 }
 
 // Writes what shows a difference again: the replay, and with --shrink a small case.
@@ -182,29 +191,30 @@ int verify_pipeline(VerifyCommand command) {
   const step::Implementation& fast = find_implementation(command.common);
   hwmodel::VerifyReport report =
       hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
-  std::optional<DramAccount> account;
+  Verified verified{report, design, c, memory.clock_mhz};
   if (memory.dram) {
-    account = {*memory.dram, memory.clock_mhz, dram->all_counts()};
+    verified.dram = {*memory.dram, dram->all_counts()};
     const state::Volume start = ahead.volume();
     ahead.begin_step();  // computes the irradiance of the step
     hwmodel::explore::predict_on_memory(report, design, c, memory, start, ahead.irradiance());
   }
 
+  add_cost(verified);
   const hwmodel::Verdict verdict = hwmodel::verdict_of(report, job.fault != hwmodel::Fault::none);
   if (verdict == hwmodel::Verdict::never_struck)
     throw UsageError(fmt::format(
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
-  print_result(command, job.scene, report, design, options.configuration, fast.name, account);
+  print_result(command, job.scene, verified, fast.name);
   if (verdict == hwmodel::Verdict::good) {
-    write_reports(job, report, design, account);
+    write_reports(job, verified);
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
       print("--shrink: there is no difference to make small\n");
     return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
   }
-  try_writing([&] { write_reports(job, report, design, account); });
+  try_writing([&] { write_reports(job, verified); });
   try_writing([&] {
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) say(no_waves);

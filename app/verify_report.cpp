@@ -23,15 +23,14 @@ void write(const ReportPlaces& places, const Json& json, Page page, const std::s
 
 }  // namespace
 
-void write_pipeline_report(const ReportPlaces& places, const std::string& name,
-                           const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                           const hwmodel::Configuration& configuration,
-                           const std::optional<DramAccount>& dram) {
+void write_pipeline_report(const ReportPlaces& places, const std::string& name, const Verified& run) {
+  const hwmodel::VerifyReport& report = run.report;
   Json json{{"scene", name}};
-  json.update(hwmodel::json_of(report, design, configuration));
-  json["hw"]["memory"] = dram ? Json(dram->parameters.name) : Json();
-  json["hw"]["clock_mhz"] = dram ? Json(dram->clock_mhz) : Json();
-  if (dram) json["dram"] = hwmodel::memory_json(dram->counts, dram->parameters);
+  json.update(hwmodel::json_of(report, run.design, run.configuration));
+  json["hw"]["memory"] = run.dram ? Json(run.dram->parameters.name) : Json();
+  json["hw"]["clock_mhz"] = run.dram ? Json(run.clock_mhz) : Json();
+  if (run.dram) json["dram"] = hwmodel::memory_json(run.dram->counts, run.dram->parameters);
+  if (run.cost) json["energy"] = json_of(*run.cost, run.clock_mhz);
   write(places, json, hwmodel::pipeline_page,
         fmt::format("{}, {} steps from step {}", name, report.steps, report.first_step));
 }

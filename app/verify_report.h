@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/options.h"
+#include "app/verify_energy.h"
 #include "hwmodel/caster/check/verify_picture.h"
 #include "hwmodel/machine/machine.h"
 #include "hwmodel/memory/counts.h"
@@ -25,14 +26,19 @@ struct ReportPlaces {
 // Tells what a DRAM did in all trains of a pipeline.
 struct DramAccount {
   hwmodel::memory::Parameters parameters;
-  int clock_mhz = 0;  // of the machine
   hwmodel::memory::Counts counts;
 };
+// A run that was verified, and what it took. There is no cost of a run that ended early.
+struct Verified {
+  const hwmodel::VerifyReport& report;
+  const hwmodel::Design& design;
+  const hwmodel::Configuration& configuration;
+  int clock_mhz = 0;  // of the machine
+  std::optional<DramAccount> dram{};
+  std::optional<RunCost> cost{};
+};
 // Writes the report of a pipeline. `name` is the scene's.
-void write_pipeline_report(const ReportPlaces& places, const std::string& name,
-                           const hwmodel::VerifyReport& report, const hwmodel::Design& design,
-                           const hwmodel::Configuration& configuration,
-                           const std::optional<DramAccount>& dram);
+void write_pipeline_report(const ReportPlaces& places, const std::string& name, const Verified& run);
 
 struct Drawn {
   std::string scene;

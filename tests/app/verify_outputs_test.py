@@ -228,6 +228,13 @@ class Outputs(unittest.TestCase):
         self.assertEqual(names.count("PRE") + names.count("PREA"), dram["precharges"])
         self.assertEqual(names.count("REF"), dram["refreshes"])
         self.assertEqual({int(channel) for _, _, channel, *_ in commands}, {0, 1, 2, 3})
+        energy, nj = report["energy"], report["energy"]["nanojoules_per_cell_step"]
+        self.assertAlmostEqual(nj["add"] + nj["multiply"] + nj["buffers"], nj["operations"])
+        self.assertGreater(min(nj["add"], nj["multiply"], nj["buffers"]), 0)
+        self.assertAlmostEqual(nj["dram"] * energy["cell_steps"] / dram["nanojoules"]["all"], 1)
+        seconds = report["cycles"] / 300e6
+        self.assertAlmostEqual(energy["watts"]["operations"] * seconds * 1e9 / (nj["operations"] * energy["cell_steps"]), 1)
+        self.assertAlmostEqual(energy["watts"]["dram"], dram["watts"], delta=0.02 * dram["watts"])
         for cycles in ([int(c.rstrip(":")) for c, *_ in requests], [int(c) for c, *_ in commands]):
             self.assertEqual(cycles, sorted(cycles), "cycles go on over all trains")
         # Every train has a memory of its own, which runs until its last cycle. Data of the last commands lie behind.
