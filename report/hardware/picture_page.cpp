@@ -82,7 +82,7 @@ std::string dram(const Json& json) {
          (json["watts"].is_null()
               ? "<p class=\"soft\">Its sheet has no currents, so its energy is unknown.</p>"
               : fmt::format("<p class=\"soft\">It takes {} nJ, which are {} W.</p>",
-                            number(json["nanojoules"]["all"], 0), number(json["watts"], 3)));
+                            number(json["nanojoules"]["all"]), number(json["watts"], 3)));
 }
 
 std::string memories(const Json& pipe) {
