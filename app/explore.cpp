@@ -43,9 +43,8 @@ struct ExploreCommand {
 void split_sets(ExploreCommand& command) {
   std::vector<std::string> scene;
   for (std::string& set : command.common.sets) {
-    auto& one = set.starts_with("device.") ? command.device_sets
-                : set.starts_with("hw.")   ? command.hw_sets
-                                           : scene;
+    const bool of_device = set.starts_with("device.") || set.starts_with("family.");
+    auto& one = of_device ? command.device_sets : set.starts_with("hw.") ? command.hw_sets : scene;
     one.push_back(std::move(set));
   }
   command.common.sets = std::move(scene);
@@ -136,6 +135,17 @@ std::vector<explore::Checked> check_points(const ExploreCommand& command, const 
   return checked;
 }
 
+// Measures the software, and compares its bits with those of the best design, if that was simulated.
+explore::SoftwareRun software_beside(const ExploreCommand& command, const explore::Explored& explored,
+                                     const state::Volume& start, const step::Implementation& fast) {
+  const std::optional<std::size_t> best = explored.answer.best;
+  const explore::Checked* checked = best ? checked_at(explored, *best) : nullptr;
+  if (checked != nullptr && !checked->good) checked = nullptr;
+  step::Tuning tuning;
+  tuning.threads = thread_count(command.common);
+  return run_software(explored.question, {start, fast, tuning, stop_if_interrupted}, checked);
+}
+
 int run_explore(ExploreCommand command) {
   split_sets(command);
   const Common& common = command.common;
@@ -169,9 +179,11 @@ int run_explore(ExploreCommand command) {
                     "a multiple of the lanes, and wider than two halos",
                     axes.tile.value_or(0)));
   const explore::Answer answer = answer_of(question, axes, swept);
+  const explore::Ranges ranges = ranges_of(question, axes, swept, answer.best, SweepProgress(true));
   const std::vector<explore::Checked> checked =
       check_points(command, question, swept, chosen_points(answer, command.points), start, fast);
-  const explore::Explored explored{question, axes, swept, answer, checked, name, command.memory};
+  explore::Explored explored{question, axes, swept, answer, ranges, checked, name, command.memory};
+  explored.software = software_beside(command, explored, start, fast);
   print("{}", common.quiet ? sentence_of(explored) + "\n" : text_of(explored));
   const std::string json = json_of(explored);
   write_report(common, json);
@@ -184,7 +196,7 @@ int run_explore(ExploreCommand command) {
   }
   const bool good =
       std::all_of(checked.begin(), checked.end(), [](const auto& one) { return one.verified(); });
-  return good ? kDone : kCheckFailed;
+  return good && explored.software->equal ? kDone : kCheckFailed;
 }
 
 }  // namespace

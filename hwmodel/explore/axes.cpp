@@ -15,9 +15,20 @@ constexpr int kClocks = 12;  // equal steps up to the highest clock
 
 }  // namespace
 
+std::vector<int> lanes_worth_trying(int across) {
+  std::vector<int> lanes;
+  int blocks = 0;
+  for (int p = 1; p <= kMostLanes; ++p)
+    if (const int count = (across + p - 1) / p; count != blocks) {
+      lanes.push_back(p);
+      blocks = count;
+    }
+  return lanes;
+}
+
 Axes usual_axes(const Question& question) {
   Axes axes;
-  for (int p = 1; p <= kMostLanes; p *= 2) axes.lanes.push_back(p);
+  axes.lanes = lanes_worth_trying(question.grid.x);
   for (int t = 1; t <= kMostCascade; ++t) axes.cascade.push_back(t);
   axes.substeps = {1};
   const auto& viscous = question.parameters.flow.viscous;
@@ -29,7 +40,7 @@ Axes usual_axes(const Question& question) {
   if (question.volume != nullptr && question.memory) axes.coded = {0, 1};
   axes.tiles = {1, 2, 4, 8, 16};
   for (int i = 1; i <= kClocks; ++i)
-    if (const int mhz = question.device.clock_mhz * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
+    if (const int mhz = question.device.clock_mhz.value * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
   return axes;
 }
 
@@ -61,9 +72,10 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     std::vector<int>* values = &(axes.*axis.values);
     if (!hw->has(key)) continue;
     const int value = hw->integer(key, 0, 1'000'000);
-    const bool clock = values == &axes.clock_mhz;  // any clock up to the highest is allowed
-    if (clock ? value < 1 || value > values->back()
-              : std::find(values->begin(), values->end(), value) == values->end()) {
+    // Any clock up to the highest is allowed, and any number of lanes.
+    const int most = values == &axes.clock_mhz ? values->back() : values == &axes.lanes ? kMostLanes : 0;
+    if (most > 0 ? value < 1 || value > most
+                 : std::find(values->begin(), values->end(), value) == values->end()) {
       std::string known;
       for (const int one : *values) known += (known.empty() ? "" : ", ") + std::to_string(one);
       hw->fail(key, " = " + std::to_string(value) + " is not among those that are tried: " + known);

@@ -53,6 +53,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   checked.good = report.mismatch == nullptr;
   if (!checked.good) checked.difference = text_of(*report.mismatch);
   checked.compared_cells = report.compared_cells;
+  checked.digest = report.digest;
   checked.on_memory = report.cycles;
   checked.cycles =
       question.memory ? cycles_without_waits(question, point.hw, checked.steps, input) : report.cycles;

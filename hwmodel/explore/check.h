@@ -19,6 +19,7 @@ struct Checked {
   bool good = false;       // there is no difference
   std::string difference;  // the difference, if any
   std::int64_t compared_cells = 0;
+  std::uint64_t digest = 0;                      // of the pipeline's last state
   std::int64_t cycles = 0, predicted = 0;        // while the memory always answers
   std::int64_t on_memory = 0, predicted_on = 0;  // with the memory's time
   std::int64_t allowed = 0;                      // cycles by which predicted_on may be off

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hwmodel/explore/ranged.h"
 #include "hwmodel/pipeline/model/stage_kind.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -26,8 +27,7 @@ struct MemoryShape {
 };
 // Counts logic beside memories and products: for a lane of a stage, for a unit, or for a channel.
 struct LogicCost {
-  std::int64_t lut = 0, ff = 0;
-  std::string source;  // "synthesised: ...", "counted: ..." or "assumed: ..."
+  Ranged<std::int64_t> lut, ff;
 };
 struct StageCost {
   LogicCost lane;
@@ -50,10 +50,12 @@ struct Device {
   std::string name, title;
   Family family;
   Amounts amounts{};
-  std::int64_t lutram = 0;  // LUTs that can be memory
-  int clock_mhz = 0;        // highest clock
-  double fill = 1;          // share of LUTs and flip-flops that can be used
-  Amounts usable() const;
+  Amounts shell{};               // what the vendor's platform takes of them
+  std::string shell_source;      // empty: there is none
+  std::int64_t lutram = 0;       // LUTs that can be memory
+  Ranged<int> clock_mhz;         // highest clock
+  Ranged<double> fill{1, 1, 1};  // share of LUTs and flip-flops that can be used
+  Amounts usable() const;        // the shell takes its part first, and only `fill` of the rest can be filled
 };
 
 struct NamedText {
@@ -63,8 +65,8 @@ const std::vector<NamedText>& device_files();
 const std::vector<NamedText>& family_files();
 
 // Loads a device by the name of one of these files, or by a path that ends in ".toml". `overrides` are such
-// as "device.bram=300". Throws scene::InputError. If there is no such device, its message begins with
-// "--device NAME".
+// as "device.bram=300" and "family.stage.melt.lut=70". A number that they give has no range, unless they give
+// that, too. Throws scene::InputError. If there is no such device, its message begins with "--device NAME".
 Device load_device(const std::string& name, const std::vector<std::string>& overrides);
 
 }  // namespace voxmelt::hwmodel::explore

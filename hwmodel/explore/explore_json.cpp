@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +23,9 @@ json amounts_json(const Amounts& amounts) {
 }
 
 json logic_json(const LogicCost& cost) {
-  return {{"lut", cost.lut}, {"ff", cost.ff}, {"source", cost.source}};
+  return {
+      {"lut", cost.lut.value}, {"lut_range", {cost.lut.low, cost.lut.high}}, {"source", cost.lut.source},
+      {"ff", cost.ff.value},   {"ff_range", {cost.ff.low, cost.ff.high}},    {"ff_source", cost.ff.source}};
 }
 
 json shapes_json(const std::vector<MemoryShape>& shapes) {
@@ -154,6 +159,46 @@ json next_json(const Explored& explored) {
   return next;
 }
 
+json end_json(const std::optional<Point>& point) {
+  if (!point) return {};
+  json hw;
+  for (const HwKey& key : kHwKeys)
+    if (key.chosen()) hw[std::string(key.name)] = key.get(point->hw);
+  hw["clock_mhz"] = point->clock_mhz;
+  return {{"hw", hw}, {"cell_steps_per_second", point->speed * 1000}, {"fullest", point->taken.fullest}};
+}
+
+json software_json(const SoftwareRun& run) {
+  return {{"implementation", run.implementation},
+          {"threads", run.threads},
+          {"steps", run.steps},
+          {"seconds", run.seconds},
+          {"cell_steps_per_second", run.speed * 1000},
+          {"compared_steps", run.compared_steps},
+          {"digest", fmt::format("{:016x}", run.digest)},
+          {"equal", run.equal}};
+}
+
+json ends_json(const Ends& ends) {
+  return {{"better", end_json(ends.better)}, {"worse", end_json(ends.worse)}};
+}
+
+json ranges_json(const Ranges& ranges) {
+  json alone = json::array();
+  for (const Alone& one : ranges.alone)
+    alone.push_back({{"name", one.coefficient.name},
+                     {"source", one.coefficient.source},
+                     {"value", one.coefficient.value},
+                     {"better", one.coefficient.better},
+                     {"worse", one.coefficient.worse},
+                     {"best", ends_json(one.ends)},
+                     {"keeps_best", one.keeps_best}});
+  return {{"all", ends_json(ranges.all)},
+          {"keeps_best", ranges.keeps_best},
+          {"alone", alone},
+          {"seconds", ranges.seconds}};
+}
+
 }  // namespace
 
 std::string json_of(const Explored& explored) {
@@ -175,8 +220,14 @@ std::string json_of(const Explored& explored) {
               {"device", q.device.name},
               {"memory", explored.memory},
               {"available", amounts_json(q.device.amounts)},
+              {"shell", amounts_json(q.device.shell)},
+              {"shell_source", q.device.shell_source},
               {"usable", amounts_json(q.device.usable())},
               {"lutram", q.device.lutram},
+              {"clock_mhz", q.device.clock_mhz.value},
+              {"clock_range", {q.device.clock_mhz.low, q.device.clock_mhz.high}},
+              {"fill", q.device.fill.value},
+              {"fill_range", {q.device.fill.low, q.device.fill.high}},
               {"family", family_json(q.device.family)},
               {"axes", axes_json(explored.axes)},
               {"configurations", explored.swept.points.size()},
@@ -184,10 +235,12 @@ std::string json_of(const Explored& explored) {
               {"answer", sentence_of(explored)},
               {"best", explored.answer.best ? point_json(explored, *explored.answer.best) : json()},
               {"next", next_json(explored)},
+              {"ranges", ranges_json(explored.ranges)},
               {"front", front},
               {"fronts", fronts},
               {"contents", contents_json(explored.swept.parts)},
               {"parts", parts}};
+  result["software"] = explored.software ? software_json(*explored.software) : json();
   if (q.memory) {
     const memory::Parameters& m = *q.memory;
     result["dram"] = {{"mhz", m.mhz},

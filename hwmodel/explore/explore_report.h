@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hwmodel/explore/answer.h"
 #include "hwmodel/explore/check.h"
+#include "hwmodel/explore/ranges.h"
+#include "hwmodel/explore/software_run.h"
 
 namespace voxmelt::hwmodel::explore {
 
@@ -17,11 +20,14 @@ struct Explored {
   const Axes& axes;
   const Swept& swept;
   const Answer& answer;
+  const Ranges& ranges;
   const std::vector<Checked>& checked;
   std::string scene, memory;
+  std::optional<SoftwareRun> software{};  // none if nobody measured it
 };
 
 std::string text_of(const Explored& explored);
+std::string design_text(const Point& point);
 std::string sentence_of(const Explored& explored);
 std::string csv_of(const Explored& explored);  // one row for every configuration
 std::string json_of(const Explored& explored);

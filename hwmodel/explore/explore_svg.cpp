@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hwmodel/explore/explore_ranges.h"
 #include "hwmodel/explore/explore_report.h"
 #include "kernel/scene/text/ascii.h"
 
@@ -29,7 +30,7 @@ text { font: 12px system-ui, "Noto Sans", "DejaVu Sans", sans-serif; fill: var(-
 .dots { stroke: var(--dot); stroke-width: 3.2; stroke-linecap: round; fill: none; }
 .front { fill: none; stroke: var(--front); stroke-width: 1.5; opacity: .7; }
 .verified { fill: var(--front); } .predicted { fill: var(--paper); stroke: var(--front); stroke-width: 1.5; }
-.differs, .outside { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
+.all { fill: var(--front); } .alone { fill: var(--dot); } .differs, .outside { fill: var(--full); } .limit { stroke: var(--full); stroke-dasharray: 4 4; } .label { fill: var(--ink); }
 </style>
 )";
 
@@ -173,8 +174,8 @@ std::string svg_of(const Explored& explored) {
       slowest = std::min(slowest, giga(p));
       fastest = std::max(fastest, giga(p));
     }
-  constexpr double kHead = 104;
-  const double height = kHead + top_of(shown.size() + 1);
+  constexpr double kHead = 121;
+  const double panels = kHead + top_of(shown.size() + 1), height = panels + ranges_height(explored);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
       "role='img'>\n{2}"
@@ -185,7 +186,8 @@ std::string svg_of(const Explored& explored) {
   if (fastest > 0)
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const std::size_t f = shown[i];
-      const auto most = static_cast<double>(f < kResources ? usable[f] : explored.question.device.clock_mhz);
+      const auto most =
+          static_cast<double>(f < kResources ? usable[f] : explored.question.device.clock_mhz.value);
       double least = most;
       for (const std::size_t at : explored.answer.fronts[f])
         least = std::min(least, shown_amount(explored.swept.points[at], f));
@@ -196,11 +198,11 @@ std::string svg_of(const Explored& explored) {
                          panel.front());
     }
   svg += fmt::format(
-      "<circle class='verified' cx='30' cy='88' r='4'/><text x='40' y='92'>verified</text>"
-      "<circle class='predicted' cx='110' cy='88' r='4'/><text x='120' y='92'>predicted</text>"
-      "<circle class='dot' cx='200' cy='88' r='2'/><text x='208' y='92'>every other design that "
+      "<circle class='verified' cx='30' cy='105' r='4'/><text x='40' y='109'>verified</text>"
+      "<circle class='predicted' cx='110' cy='105' r='4'/><text x='120' y='109'>predicted</text>"
+      "<circle class='dot' cx='200' cy='105' r='2'/><text x='208' y='109'>every other design that "
       "fits</text>\n");
-  return svg + "</svg>\n";
+  return svg + ranges_svg(explored, panels, 2 * kWidth) + "</svg>\n";
 }
 
 }  // namespace voxmelt::hwmodel::explore

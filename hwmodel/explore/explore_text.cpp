@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/explore_ranges.h"
 #include "hwmodel/explore/explore_report.h"
 #include "hwmodel/memory/ratio.h"
 #include "kernel/scene/text/ascii.h"
@@ -22,14 +23,6 @@ double gain(std::int64_t speed, std::int64_t than) {
   return percent(std::max<std::int64_t>(0, speed - than), than);
 }
 std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<double>(speed) * 1e-6); }
-
-std::string design_of(const Point& p) {
-  std::string text = fmt::format("{} lanes x {} steps at {} MHz", p.hw.lanes, p.hw.cascade, p.clock_mhz);
-  if (p.hw.substeps > 1) text += fmt::format(", {} sub-steps", p.hw.substeps);
-  if (p.hw.coded) text += ", coded";
-  if (p.hw.tile > 0) text += fmt::format(", tiles of {} columns", p.hw.tile);
-  return text;
-}
 
 std::string unit_of(Resource r) {
   std::string name(kResourceNames[r]);
@@ -49,7 +42,9 @@ std::string row_of(const Explored& explored, std::size_t at) {
                   p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no", p.hw.coded ? "yes" : "no",
                   p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile), p.clock_mhz, giga(p.speed));
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
-  text += fmt::format(" {:>6.1f} {:>7.1f}  ", 100 * p.taken.fullest,
+  const Fullest& fullest = explored.ranges.fullest[at];
+  text += fmt::format(" {:>6.1f} {:>11} {:>7.1f}  ", 100 * p.taken.fullest,
+                      fmt::format("{:.0f} .. {:.0f}", 100 * fullest.better, 100 * fullest.worse),
                       percent(std::max<std::int64_t>(0, p.on_memory - p.cycles), p.on_memory));
   const Checked* checked = checked_at(explored, at);
   if (checked == nullptr)
@@ -77,7 +72,7 @@ std::string lack_of(const Explored& explored) {
     if (least.taken.amounts[r] > usable[r])
       text += fmt::format("{}{} {}, where {} are usable", text.empty() ? "" : "; ", least.taken.amounts[r],
                           unit_of(r), usable[r]);
-  return fmt::format("The smallest, {}, takes {}.", design_of(least), text);
+  return fmt::format("The smallest, {}, takes {}.", design_text(least), text);
 }
 
 // Lists what would make the best design faster by 1 % and more, the greatest gain first.
@@ -133,7 +128,7 @@ std::string next_text(const Explored& explored) {
     if (next.point)
       text += fmt::format("  {} more {} buy {:+.1f} % ({}); any number {:+.1f} %\n", next.more, unit,
                           gain(explored.swept.points[*next.point].speed, best),
-                          design_of(explored.swept.points[*next.point]), gain(next.limit, best));
+                          design_text(explored.swept.points[*next.point]), gain(next.limit, best));
     else
       text += fmt::format("  more {} alone buy nothing\n", unit);
   }
@@ -145,7 +140,31 @@ std::string next_text(const Explored& explored) {
                             gain(explored.answer.with_next_clock, best));
 }
 
+// Sets the design beside this machine.
+std::string software_text(const Explored& explored) {
+  const SoftwareRun& run = *explored.software;
+  std::string text = fmt::format(
+      "  this machine's software: {} Gcell-steps/s ({}, {} thread{}, {} steps in {:.2f} s)", giga(run.speed),
+      run.implementation, run.threads, run.threads == 1 ? "" : "s", run.steps, run.seconds);
+  if (explored.answer.best && run.speed > 0)
+    text += fmt::format("; the best design is {:.1f} times as fast",
+                        ratio(believed_speed(explored, *explored.answer.best), run.speed));
+  if (run.compared_steps > 0)
+    text += run.equal
+                ? fmt::format("; after {} steps its bits are those of the pipeline", run.compared_steps)
+                : fmt::format("; after {} steps its bits are NOT those of the pipeline", run.compared_steps);
+  return text + "\n";
+}
+
 }  // namespace
+
+std::string design_text(const Point& p) {
+  std::string text = fmt::format("{} lanes x {} steps at {} MHz", p.hw.lanes, p.hw.cascade, p.clock_mhz);
+  if (p.hw.substeps > 1) text += fmt::format(", {} sub-steps", p.hw.substeps);
+  if (p.hw.coded) text += ", coded";
+  if (p.hw.tile > 0) text += fmt::format(", tiles of {} columns", p.hw.tile);
+  return text;
+}
 
 const Checked* checked_at(const Explored& explored, std::size_t point) {
   for (const Checked& checked : explored.checked)
@@ -173,11 +192,11 @@ std::string sentence_of(const Explored& explored) {
   const auto bounds = bounds_of(explored);
   std::string text =
       fmt::format("The best of {} designs for {} on {} with {} has {}: {}; ", explored.swept.points.size(),
-                  explored.scene, device.name, memory_of(explored), design_of(p), headline_of(explored));
-  if (bounds.empty()) return text + "no resource alone bounds it.";
+                  explored.scene, device.name, memory_of(explored), design_text(p), headline_of(explored));
+  if (bounds.empty()) return text + "no resource alone bounds it." + ranges_sentence(explored);
   text += bounds.front().second + " bounds it";
   for (std::size_t i = 1; i < bounds.size(); ++i) text += (i == 1 ? ", then " : ", ") + bounds[i].second;
-  return text + ".";
+  return text + "." + ranges_sentence(explored);
 }
 
 std::string text_of(const Explored& explored) {
@@ -185,6 +204,8 @@ std::string text_of(const Explored& explored) {
   const Amounts usable = device.usable();
   std::string text = fmt::format("{}, of which usable:", device.title);
   for (const Resource r : kEachResource) text += fmt::format(" {} {}", usable[r], unit_of(r));
+  if (!device.shell_source.empty())
+    text += fmt::format("\nthe shell takes its part: {}", device.shell_source);
   text +=
       fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
                   explored.question.memory ? explored.question.memory->title : "always answers",
@@ -193,12 +214,14 @@ std::string text_of(const Explored& explored) {
   text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
                       "depth", "overlap", "coded", "tile", "MHz", "Gcell/s");
   for (const Resource r : kEachResource) text += fmt::format(" {:>7}", unit_of(r));
-  text += fmt::format(" {:>6} {:>7}\n", "full %", "waits %");
+  text += fmt::format(" {:>6} {:>11} {:>7}\n", "full %", "range %", "waits %");
   for (const std::size_t at : explored.answer.front) text += row_of(explored, at);
   for (const Checked& checked : explored.checked)
     if (!checked.good) text += checked.difference;
   text += sentence_of(explored) + "\n";
-  return explored.answer.best ? text + next_text(explored) : text;
+  if (explored.answer.best) text += next_text(explored);
+  if (explored.software) text += software_text(explored);
+  return text + ranges_table(explored);
 }
 
 }  // namespace voxmelt::hwmodel::explore

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hwmodel/pipeline/model/random_block.h"
 #include "hwmodel/pipeline/model/stages.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -15,18 +16,13 @@ std::int64_t pieces(int width, int number) {
 
 void add_stage(PartList& list, const StagePart& part, const Family& family) {
   const StageCost& cost = family.stages.at(part.kind);
-  const std::int64_t lanes = list.design.shape.lanes, blocks = part.units.random_blocks * ((lanes + 7) / 8);
-  list.lut +=
-      lanes * (cost.lane.lut + part.units.dividers * family.divider.lut) + blocks * family.random_block.lut;
-  list.ff +=
-      lanes * (cost.lane.ff + part.units.dividers * family.divider.ff) + blocks * family.random_block.ff;
   for (int i = 0; i < part.units.multipliers && !cost.multipliers.empty(); ++i) {
     const auto at = std::min<std::size_t>(i, cost.multipliers.size() - 1);
-    list.dsp += lanes * dsps_of(cost.multipliers[at], family.product);
+    list.dsp += list.design.shape.lanes * dsps_of(cost.multipliers[at], family.product);
   }
   for (const BufferCost& buffer : part.buffers)
     if (buffer.words <= family.register_words)
-      list.ff += buffer.total();
+      list.register_bits += buffer.total();
     else
       list.memories = sums_of(list.memories, ways_to_hold(buffer.words, buffer.lanes * buffer.bits, family));
 }
@@ -36,6 +32,21 @@ void add_stage(PartList& list, const StagePart& part, const Family& family) {
 std::int64_t dsps_of(const Widths& product, const Widths& dsp) {
   return std::min(pieces(product.wide, dsp.wide) * pieces(product.narrow, dsp.narrow),
                   pieces(product.wide, dsp.narrow) * pieces(product.narrow, dsp.wide));
+}
+
+Logic logic_of(const PartList& parts, const Family& family) {
+  const std::int64_t lanes = parts.design.shape.lanes;
+  Logic all{0, parts.register_bits};
+  for (const StagePart& part : parts.stages) {
+    const LogicCost& lane = family.stages.at(part.kind).lane;
+    const std::int64_t dividers = part.units.dividers * lanes,
+                       blocks = part.units.random_blocks * blocks_of_token(parts.design.shape.lanes);
+    all.lut +=
+        lanes * lane.lut.value + dividers * family.divider.lut.value + blocks * family.random_block.lut.value;
+    all.ff +=
+        lanes * lane.ff.value + dividers * family.divider.ff.value + blocks * family.random_block.ff.value;
+  }
+  return all;
 }
 
 PartList part_list(const Design& design, const Family& family) {

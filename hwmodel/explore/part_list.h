@@ -29,9 +29,17 @@ struct PartList {
   std::shared_ptr<const Content> content = std::make_shared<Content>();  // contents of the first state
 
   // These count the parts of a family for one time step, without its channels and ports.
-  std::int64_t lut = 0, ff = 0, dsp = 0;
-  std::vector<MemoryUse> memories;  // ways to hold its buffers
+  std::int64_t dsp = 0;
+  std::int64_t register_bits = 0;   // buffers of a few words are flip-flops
+  std::vector<MemoryUse> memories;  // ways to hold the other ones
 };
+
+// Counts the LUTs and flip-flops of one time step, without its memories, channels and ports. Families may
+// differ in what their logic takes.
+struct Logic {
+  std::int64_t lut = 0, ff = 0;
+};
+Logic logic_of(const PartList& parts, const Family& family);
 
 PartList part_list(const Design& design, const Family& family);
 

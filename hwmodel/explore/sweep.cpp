@@ -28,12 +28,13 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   Fixed fixed;
   fixed.ports = 2 + (parts.fed ? steps : 0) + (parts.falls ? 1 : 0);
   std::int64_t &lut = fixed.amounts[0], &ff = fixed.amounts[1], &dsp = fixed.amounts[2];
-  lut = f.base.lut + steps * parts.lut + fixed.ports * f.port.lut;
-  ff = f.base.ff + steps * parts.ff + fixed.ports * f.port.ff;
+  const Logic step = logic_of(parts, f);
+  lut = f.base.lut.value + steps * step.lut + fixed.ports * f.port.lut.value;
+  ff = f.base.ff.value + steps * step.ff + fixed.ports * f.port.ff.value;
   dsp = steps * parts.dsp;
   const auto channel = [&](std::int64_t times, std::int64_t bits) {
-    lut += times * f.channel.lut;
-    ff += times * f.channel.ff;
+    lut += times * f.channel.lut.value;
+    ff += times * f.channel.ff.value;
     if (depth <= f.register_words)
       ff += times * depth * bits * lanes;
     else
@@ -44,8 +45,8 @@ Fixed fixed_of(const PartList& parts, const Configuration& hw, const Family& f) 
   if (parts.fed) channel(steps, 16);
   if (parts.falls) channel(1, 1);
   if (hw.coded) {
-    lut += 2 * f.coder.lut;
-    ff += 2 * f.coder.ff;
+    lut += 2 * f.coder.lut.value;
+    ff += 2 * f.coder.ff.value;
     const CodeLayout layout(parts.design);
     for (const auto& buffers : {reader_buffers(layout), writer_buffers(layout)})
       for (const BufferCost& one : buffers)
@@ -104,6 +105,14 @@ Taken taken_by(const PartList& parts, const Configuration& hw, const Device& dev
     first = false;
   });
   return best;
+}
+
+bool too_large(const PartList& parts, const Configuration& hw, const Device& device) {
+  const Amounts usable = device.usable();
+  const Fixed fixed = fixed_of(parts, hw, device.family);
+  return fixed.lutram > device.lutram ||
+         std::any_of(kEachResource.begin(), kEachResource.end(),
+                     [&](Resource r) { return fixed.amounts[r] > usable[r]; });
 }
 
 std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, const Configuration& hw,

@@ -46,6 +46,9 @@ inline constexpr std::array kAxes{Axis{"lanes", &Axes::lanes},        Axis{"casc
                                   Axis{"overlap", &Axes::overlap},    Axis{"coded", &Axes::coded},
                                   Axis{"clock_mhz", &Axes::clock_mhz}};
 Axes usual_axes(const Question& question);
+// Returns numbers of lanes for a grid that is so many cells wide. Of numbers that make as many blocks, all
+// but the least would leave lanes idle.
+std::vector<int> lanes_worth_trying(int across);
 // Returns the values of hw.tile for the lanes and steps of `hw`.
 std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw);
 // Keeps a single value of each axis that `sets` names, such as "hw.lanes=8". Throws scene::InputError.
@@ -81,6 +84,8 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
 // If `relaxed` is given, there is any amount of this resource.
 Taken taken_by(const PartList& parts, const Configuration& hw, const Device& device,
                std::optional<Resource> relaxed = {});
+// Tells that a configuration cannot fit, whatever memories it chooses. This is much quicker than taken_by.
+bool too_large(const PartList& parts, const Configuration& hw, const Device& device);
 // Returns the fewest units of one resource with which the configuration fits, if all others suffice.
 std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, const Configuration& hw,
                                      const Device& device);

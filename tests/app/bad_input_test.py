@@ -145,7 +145,7 @@ ARGUMENTS = [
     (["verify", "scene.toml", "--machine", "--view", "here"], "--view here", 2),
     (["verify", "scene.toml", "--hw", "huge"], "--hw huge", 2),
     (["verify", "scene.toml", "--hw", "none.toml"], "none.toml", 2),
-    (["verify", "scene.toml", "--set", "hw.lanes=3"], "hw.lanes", 2),
+    (["verify", "scene.toml", "--set", "hw.lanes=33"], "hw.lanes", 2),
     (["verify", "scene.toml", "--set", "hw.lanes=64"], "hw.lanes", 2),
     (["verify", "scene.toml", "--set", "hw.fifo_depth=0"], "hw.fifo_depth", 2),
     (["verify", "scene.toml", "--set", "hw.lane=4"], "hw.lanes", 2),

@@ -278,7 +278,7 @@ def fixed_of(report, parts, hw):
     lut, ff, dsp, lutram = f["base"]["lut"] + ports * f["port"]["lut"], f["base"]["ff"] + ports * f["port"]["ff"], 0, 0
     widths = [(parts["cell_bits"], 1)]
     for stage in parts["stages"]:
-        c, blocks = f["stages"][stage["name"]], stage["random_blocks_per_8_lanes"] * ceil(p / 8)
+        c, blocks = f["stages"][stage["name"]], stage["random_blocks_per_8_lanes"] * blocks_of(p)
         for name in ("lut", "ff"):
             cost = p * (c[name] + stage["dividers"] * f["divider"][name]) + blocks * f["random_block"][name]
             lut, ff = (lut + t * cost, ff) if name == "lut" else (lut, ff + t * cost)
@@ -302,6 +302,11 @@ def fixed_of(report, parts, hw):
             ff += words * bits if words <= f["register_words"] else 0
         lut, ff = lut + 2 * f["coder"]["lut"], ff + 2 * f["coder"]["ff"]
     return lut + lutram, ff, dsp, lutram, ports
+
+
+def blocks_of(lanes):
+    """Blocks of 8 cells that one token of so many cells touches, wherever it begins."""
+    return max(len({x // 8 for x in range(begin, begin + lanes)}) for begin in range(0, 8 * lanes, lanes))
 
 
 def lutram_of(f, words, bits):

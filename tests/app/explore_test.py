@@ -193,10 +193,10 @@ class Explore(unittest.TestCase):
     def test_bad_usage(self):
         for arguments, message in (
                 (["--device", "zu7ev", "--set", "hw.tile=1", "--set", "hw.lanes=2"], "hw.tile = 1: no lanes and steps"),
-                (["--device", "zu9eg"], 'no device "zu9eg"; there are ecp5-85f, zu7ev'),
+                (["--device", "zu9eg"], 'no device "zu9eg"; there are alveo-u280, artix-200t, ecp5-85f, zu7ev'),
                 (["--device", "zu7ev", "--memory", "sram"], "there are none, ddr4-2400, ddr5-4800, gddr6, hbm2-stack, hbm2, hbm3, lpddr4-3200"),
                 (["--device", "zu7ev", "--set", "device.brams=3"], "device.brams"),
-                (["--device", "zu7ev", "--set", "hw.lanes=3"], "not among those that are tried: 1, 2, 4"),
+                (["--device", "zu7ev", "--set", "hw.lanes=33"], "not among those that are tried: 1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24"),
                 (["--device", "zu7ev", "--set", "hw.clock_mhz=301"], "hw.clock_mhz"),
                 (["--device", "missing.toml"], "missing.toml")):
             result = voxmelt("explore", self.scene, *arguments, "--points", 0, cwd=self.folder)

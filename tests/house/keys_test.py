@@ -16,8 +16,8 @@ WRITTEN = re.compile(r'\{"(\w+)",|\["(\w+)"\]')
 JSON = "kernel/run/io/parameters_json.cpp"
 HW = "hwmodel/pipeline/model/configuration.h"
 CASTER = "hwmodel/caster/model/configuration.h"
-FILES = {"hwmodel/memory/sheet.cpp", "hwmodel/explore/device.cpp"}
-IN_FILES = re.compile(r'\b(?:cycles|power_of_two|whole|pairs|logic_of|table_of|table|integer|flag|text|number)\((?:\*?\w+, )?"(\w+)"')
+FILES = {"hwmodel/memory/sheet.cpp", "hwmodel/explore/device.cpp", "hwmodel/explore/family.cpp"}
+IN_FILES = re.compile(r'\b(?:cycles|power_of_two|whole|pairs|logic_of|table_of|table|integer|flag|text|number|read_logic|read_of_device|read_source)\((?:\*?\w+, )?"(\w+)"')
 RESOURCES = re.compile(r'kResourceNames\{([^}]*)\}')
 
 
@@ -73,7 +73,7 @@ def self_test():
             "docs/hardware/pipeline.md": "`hw.lanes`, lanes and `tile`\n", HW: 'hw_key<&C::lanes>("lanes", 1),\n',
             "docs/hardware/ray-caster.md": "`hw.pipes`\n", CASTER: 'hw_key<&C::pipes>("pipes", 1),\n',
             "docs/hardware/files.md": "`faw`, `[stage.NAME]` and `lut`\n", "hwmodel/memory/sheet.cpp": 'p.faw = cycles("faw", 1);\n',
-            "hwmodel/explore/device.cpp": 'table_of(root, "stage");\n', "hwmodel/explore/device.h": 'kResourceNames{"lut"};\n'}
+            "hwmodel/explore/device.cpp": 'table_of(root, "stage");\n', "hwmodel/explore/family.cpp": "", "hwmodel/explore/device.h": 'kResourceNames{"lut"};\n'}
     planted = [(reader, 'r.number("delta", x);'), (reader, 'r->integer("delta", 1);'), (reader, 'r.vector<3>("delta");'),
                (reader, 'r.tables(\n    "delta");'), (reader, 'r.flag("power", true);'), (reader, "\n"),
                (json, '{"until", 1}'), (json, '{"from", 1}'), (json, "\n"), (HW, "\n"), (CASTER, "\n"), ("hwmodel/memory/sheet.cpp", 'a = power_of_two(from, "banks", 3)'), ("hwmodel/explore/device.cpp", 'whole(*from, "clock", 1)'), ("hwmodel/explore/device.h", 'kResourceNames{"lut", "dsp"}'), (CASTER, 'hw_key<&C::levels, &S::sets>("sets", 1)'), (HW, 'hw_key<&C::tile>(\n    "tile", 1)'), ("docs/automaton.md", "## 14. Parameters\ngrid\n")]

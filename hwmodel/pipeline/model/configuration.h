@@ -52,7 +52,7 @@ using HwKey = Key<Configuration>;
 
 // The key hw.tile is a multiple of the lanes, so it must be read after them.
 inline constexpr std::array kHwKeys{
-    hw_key<&Configuration::lanes>("lanes", 1, kMostLanes, "1, 2, 4 .. 32", true),
+    hw_key<&Configuration::lanes>("lanes", 1, kMostLanes, "1 .. 32"),
     hw_key<&Configuration::cascade>("cascade", 1, kMostCascade, "1 .. 16"),
     hw_key<&Configuration::substeps>("substeps", 1, kMostSubsteps, "1 .. 64"),
     hw_key<&Configuration::overlap>("overlap", 0, 1, "0, 1"),

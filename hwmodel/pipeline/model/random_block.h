@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include "hwmodel/fabric/wires.h"
 
@@ -38,5 +39,12 @@ inline std::uint64_t speck_block(const SpeckKeys& keys, std::uint32_t step, std:
 
 // Returns the byte of the cell at x in the block of its eight.
 inline UInt<8> speck_byte(std::uint64_t block, int x) { return block >> (8 * (x & 7)) & 0xFF; }
+
+// Counts the blocks that the cells of a token draw from. Tokens begin at multiples of their lanes, so that of
+// 8 lanes lies in one block, and one of 3 lanes in two at most.
+constexpr int blocks_of_token(int lanes) {
+  const int furthest = 8 - std::gcd(lanes, 8);  // at which a token begins, in a block
+  return (furthest + lanes + 7) / 8;
+}
 
 }  // namespace voxmelt::hwmodel

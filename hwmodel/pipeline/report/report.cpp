@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hwmodel/memory/ratio.h"
+#include "hwmodel/pipeline/model/random_block.h"
 #include "hwmodel/pipeline/model/tiling.h"
 #include "hwmodel/pipeline/report/report_details.h"
 
@@ -109,7 +110,7 @@ Units units_of(const VerifyReport& report, int lanes) {
   for (const StageReport& stage : report.stages) {
     sum.multipliers += stage.units.multipliers * lanes;
     sum.dividers += stage.units.dividers * lanes;
-    sum.random_blocks += stage.units.random_blocks * ((lanes + 7) / 8);
+    sum.random_blocks += stage.units.random_blocks * blocks_of_token(lanes);
   }
   return sum;
 }

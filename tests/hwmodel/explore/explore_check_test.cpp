@@ -64,7 +64,8 @@ std::string said_of(std::int64_t simulated, std::int64_t predicted) {
   checked.speed = 4252000;
   checked.predicted_speed = 7992000;
   const std::vector<Checked> all{checked};
-  const Explored explored{question, axes, swept, answer, all, "a scene", "hbm2"};
+  const Ranges ranges = ranges_of(question, axes, swept, answer.best, {});
+  const Explored explored{question, axes, swept, answer, ranges, all, "a scene", "hbm2"};
   return text_of(explored) + json_of(explored) + csv_of(explored);
 }
 

@@ -55,7 +55,7 @@ TEST(IrradianceStream, IsReadBack) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     worlds::Random random(seed + 3);
     const state::Grid grid{random.between(1, 40), random.between(1, 6), random.between(1, 5)};
-    Shape shape{grid, random.any({1, 2, 4, 8, 16, 32})};
+    Shape shape{grid, random.any({1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 16, 24, 31, 32})};
     if (shape.grid_blocks() > 3) {
       shape.tile = shape.grid_blocks() - 1;
       shape.halo = 1;
@@ -104,7 +104,7 @@ TEST(Code, AVolumeIsReadBack) {
     worlds::Random random(seed + 11);
     const state::Grid grid{random.between(1, 20), random.between(1, 70), random.between(1, 5)};
     const Start start = hostile_start(seed, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
-    const Design design{start.parameters, {grid, random.any({1, 2, 8, 32})}, 1};
+    const Design design{start.parameters, {grid, random.any({1, 2, 3, 8, 13, 32})}, 1};
     CodedState code{CodeLayout(design)};
     code.store(start.volume);
     state::Volume back(grid);
@@ -123,7 +123,7 @@ void hostile_worlds(int begin, int end) {
     const state::Grid grid{random.between(8, 60), random.between(1, 9), random.between(2, 24)};
     const Start start =
         hostile_start(seed + 5000, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
-    Configuration c{random.any({1, 2, 4, 8, 16}), random.between(1, 3), random.any({1, 2, 5}),
+    Configuration c{random.any({1, 2, 3, 4, 5, 8, 12, 16}), random.between(1, 3), random.any({1, 2, 5}),
                     random.one_in(2) ? 0 : seed + 1};
     c.coded = true;
     if (random.one_in(3)) c.substeps = 2;
@@ -145,7 +145,7 @@ TEST(CodeLong, HostileWorldsWithTilesAndStalls) { hostile_worlds(16, 50); }
 
 // The last block of each column has a token of air alone, and any number of lanes beyond the grid.
 TEST(Code, EveryRestOfTheWidthByTheLanes) {
-  for (const int lanes : {2, 4, 8, 16})
+  for (const int lanes : {2, 3, 4, 5, 8, 12, 16})
     for (int rest = 0; rest < lanes; ++rest) {
       const state::Grid grid{lanes + (rest == 0 ? lanes : rest), 4, 3};
       const rule::Law law = rest % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
@@ -191,7 +191,7 @@ TEST(Code, ADramGivesTheBurstsThatAreCounted) {
     const state::Grid grid{random.between(1, 40), random.any({1, 3, 40}), random.between(3, 30)};
     const Start start =
         hostile_start(seed + 300, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
-    Configuration c{random.any({1, 4, 16}), random.between(1, 3), 4, 0};
+    Configuration c{random.any({1, 3, 4, 7, 16}), random.between(1, 3), 4, 0};
     c.coded = seed % 3 != 0;
     const Design design = design_of(start.parameters, grid, c);
     MemoryStreams streams(design, c.cascade, sheet, 200);
@@ -233,7 +233,7 @@ TEST(Columns, ADramGivesThoseOfEachTile) {
     const state::Grid grid{random.between(20, 60), random.any({1, 3, 20}), random.between(3, 20)};
     Start start = hostile_start(seed + 900, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
     if (seed % 3 != 0) start.parameters.heat.radiation = false;  // its words begin with a burst in each tile
-    Configuration c{random.any({1, 2, 4}), random.between(1, 2), random.any({1, 4}), seed % 3};
+    Configuration c{random.any({1, 2, 3, 4, 6}), random.between(1, 2), random.any({1, 4}), seed % 3};
     c.coded = seed % 4 < 2;
     c.tile = narrow(start, c, random.between(0, 4));
     const Design design = design_of(start.parameters, grid, c);

@@ -24,7 +24,7 @@ void each_world(int count, std::uint64_t first_seed, Visit&& visit) {
 
 TEST(Materials, HostileWorlds) {
   each_world(40, 500, [](Start& start, worlds::Random& random) {
-    Configuration c{random.any({1, 2, 4, 8, 16}), random.between(1, 4), random.any({1, 2, 8}),
+    Configuration c{random.any({1, 2, 3, 4, 6, 8, 11, 16}), random.between(1, 4), random.any({1, 2, 8}),
                     static_cast<std::uint64_t>(random.any({0, 9}))};
     c.coded = random.one_in(3);
     ASSERT_TRUE(agrees(start, c, 6));

@@ -66,8 +66,8 @@ TEST(Overlap, HostileWorldsWithStalls) {
     worlds::Random random(seed + 7);
     const Start start =
         deep_start(seed + 500, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, random.between(20, 60));
-    const Configuration c{random.any({1, 2, 4, 8, 16}), random.between(1, 4), random.any({1, 2, 3, 8}),
-                          random.one_in(3) ? 0 : seed + 1};
+    const Configuration c{random.any({1, 2, 3, 4, 6, 8, 11, 16}), random.between(1, 4),
+                          random.any({1, 2, 3, 8}), random.one_in(3) ? 0 : seed + 1};
     ASSERT_TRUE(agrees(start, c, 9)) << "seed " << seed;
   }
 }

@@ -100,7 +100,7 @@ void hostile_worlds(std::uint64_t begin, std::uint64_t end) {
     worlds::Random random(seed + 31);
     const state::Grid grid{random.between(1, 60), random.between(1, 8), random.between(1, 12)};
     Start start = hostile_start(seed + 2000, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous, grid);
-    Configuration c{random.any({1, 2, 4, 8}), random.between(1, 3), random.any({1, 2, 3, 8}),
+    Configuration c{random.any({1, 2, 3, 4, 5, 6, 8}), random.between(1, 3), random.any({1, 2, 3, 8}),
                     random.one_in(2) ? 0 : seed + 1};
     c.overlap = !random.one_in(3);
     if (random.one_in(3)) c.substeps = 2;
@@ -215,7 +215,7 @@ TEST_P(TileFaults, IsFoundWhereItWasPlanted) {
     const state::Grid grid{random.between(20, 40), random.between(3, 6), random.between(3, 24)};
     const rule::Law law = seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous;
     const Start start = start_for(fault.fault, seed + 40, law, grid);
-    Configuration c{random.any({1, 2, 4}), random.between(1, 2), random.any({1, 2, 4}),
+    Configuration c{random.any({1, 2, 3, 4}), random.between(1, 2), random.any({1, 2, 4}),
                     random.one_in(2) ? 0 : seed};
     c.tile = narrow(start, c, random.between(2, 6));
     c.coded = is_of_the_code(fault.fault) || seed % 4 == 1;

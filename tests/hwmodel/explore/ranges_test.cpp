@@ -1,0 +1,130 @@
+// Numbers have ranges by their sources, and the answer is sought again at the ends.
+#include "hwmodel/explore/ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "hwmodel/explore/answer.h"
+#include "kernel/scene/text/error.h"
+
+namespace voxmelt::hwmodel::explore {
+namespace {
+
+template <class T>
+bool holds(const Ranged<T>& number, T value) {
+  return number.low <= value && value <= number.high;
+}
+
+// What a synthesis of single stages found after the files had been written.
+TEST(Ranges, HoldWhatASynthesisFound) {
+  const Family us = load_device("zu7ev", {}).family, ecp5 = load_device("ecp5-85f", {}).family;
+  EXPECT_TRUE(holds<std::int64_t>(us.stages.at(StageKind::viscous_spread).lane.lut, 3461));
+  EXPECT_TRUE(holds<std::int64_t>(us.stages.at(StageKind::viscous_spread).lane.ff, 2584));
+  EXPECT_TRUE(holds<std::int64_t>(us.stages.at(StageKind::conduction).lane.lut, 386 + 280));
+  EXPECT_TRUE(holds<std::int64_t>(us.divider.lut, 523));
+  EXPECT_EQ(ecp5.divider.lut.value, 520) << "1.04 LUT4 for each of 500 LUT6";
+  EXPECT_EQ(ecp5.random_block.lut.value, us.random_block.lut.value);
+  // Where a factor of 1.73 is assumed, 1.00 is possible.
+  for (const auto& [kind, cost] : ecp5.stages)
+    if (cost.lane.lut.source.find("1.73") != std::string::npos)
+      EXPECT_TRUE(holds(cost.lane.lut, us.stages.at(kind).lane.lut.value)) << name_of(kind);
+}
+
+TEST(Ranges, FollowFromTheSource) {
+  const std::vector<std::string> sets{"family.base.lut=1000", "family.base.lut_range=[900, 1700]",
+                                      "family.coder.lut=70"};
+  const Family f = load_device("zu7ev", sets).family;
+  EXPECT_EQ(f.base.lut.low, 900);
+  EXPECT_EQ(f.base.lut.high, 1700);
+  EXPECT_EQ(f.coder.lut.low, 70) << "who gives a number knows it";
+  EXPECT_EQ(f.coder.lut.high, 70);
+  EXPECT_EQ(f.coder.ff.low, 100) << "300, assumed";
+  EXPECT_EQ(f.coder.ff.high, 900);
+  EXPECT_EQ(f.stages.at(StageKind::settle).lane.lut.low, 250) << "500, counted";
+  EXPECT_EQ(f.stages.at(StageKind::settle).lane.lut.high, 1000);
+  EXPECT_EQ(f.random_block.lut.low, 768) << "960, synthesised";
+  EXPECT_EQ(f.random_block.lut.high, 1200);
+  EXPECT_EQ(load_device("zu7ev", {"device.clock=250"}).clock_mhz.high, 250);
+  EXPECT_THROW(load_device("zu7ev", {"family.base.lut_range=[13000, 14000]"}), scene::InputError);
+  EXPECT_THROW(load_device("zu7ev", {"device.fill_range=[0.1, 1.1]"}), scene::InputError);
+  EXPECT_THROW(load_device("zu7ev", {"family.base.source=\"guessed\""}), scene::InputError);
+  EXPECT_THROW(load_device("zu7ev", {"family.base.luts=3"}), scene::InputError);
+}
+
+// A number is changed, and no other one.
+TEST(Ranges, OneNumberIsChanged) {
+  const Device device = load_device("zu7ev", {});
+  const std::vector<Coefficient> before = coefficients_of(device);
+  EXPECT_EQ(before.size(), 2U + 2 * (6 + 14));
+  for (const Coefficient& one : before) {
+    const std::vector<Coefficient> after = coefficients_of(with_value(device, one.name, one.worse));
+    int changed = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (after[i].value == before[i].value) continue;
+      EXPECT_EQ(after[i].name, one.name);
+      EXPECT_EQ(after[i].value, one.worse);
+      ++changed;
+    }
+    EXPECT_EQ(changed, 1) << one.name;
+    EXPECT_EQ(one.better > one.worse, one.name.starts_with("device.")) << one.name;
+  }
+}
+
+struct Small {
+  Question question;
+  Axes axes;
+  explicit Small(const std::vector<std::string>& sets) {
+    question.grid = {4, 4, 4};
+    question.parameters.flow.law = rule::Law::paper;
+    question.device = load_device("zu7ev", sets);
+    axes.lanes = {1, 2};
+    axes.cascade = axes.substeps = axes.overlap = {1};
+    axes.fifo_depth = {2};
+    axes.coded = {0};
+    axes.clock_mhz = {100};
+  }
+  Swept swept() const { return sweep(question, axes, {}); }
+};
+
+// There are as many LUTs as two lanes take. One more for the base, and only one lane fits.
+TEST(Ranges, TheBestDesignAtBothEnds) {
+  const std::int64_t two = Small({}).swept().points.at(1).taken.amounts[kLut];
+  const Small small({"device.fill=1", "device.lut=" + std::to_string(two),
+                     "family.base.lut_range=[11000, 12001]", "family.base.lut=12000"});
+  const Swept swept = small.swept();
+  const Answer answer = answer_of(small.question, small.axes, swept);
+  ASSERT_TRUE(answer.best);
+  EXPECT_EQ(swept.points[*answer.best].hw.lanes, 2);
+  const Ranges ranges = ranges_of(small.question, small.axes, swept, answer.best, {});
+  const auto base = std::find_if(ranges.alone.begin(), ranges.alone.end(),
+                                 [](const Alone& one) { return one.coefficient.name == "family.base.lut"; });
+  ASSERT_NE(base, ranges.alone.end());
+  ASSERT_TRUE(base->ends.better && base->ends.worse);
+  EXPECT_EQ(base->ends.better->hw.lanes, 2);
+  EXPECT_EQ(base->ends.worse->hw.lanes, 1);
+  EXPECT_FALSE(base->keeps_best);
+  EXPECT_FALSE(ranges.keeps_best);
+  EXPECT_GT(ranges.fullest.at(*answer.best).worse, 1);
+  EXPECT_LT(ranges.fullest.at(*answer.best).better, 1);
+  for (const Alone& one : ranges.alone) {
+    EXPECT_NE(one.coefficient.name, "device.clock") << "the question has one clock";
+    EXPECT_NE(one.coefficient.name, "family.stage.spread.lut") << "the paper law has no such stage";
+  }
+}
+
+TEST(Ranges, PerhapsNothingFits) {
+  const std::int64_t one = Small({}).swept().points.at(0).taken.amounts[kFf];
+  const Small small({"device.fill=1", "device.ff=" + std::to_string(one)});
+  const Swept swept = small.swept();
+  const Answer answer = answer_of(small.question, small.axes, swept);
+  const Ranges ranges = ranges_of(small.question, small.axes, swept, answer.best, {});
+  EXPECT_FALSE(ranges.all.worse);
+  ASSERT_TRUE(ranges.all.better);
+  EXPECT_EQ(ranges.all.better->hw.lanes, 2);
+}
+
+}  // namespace
+}  // namespace voxmelt::hwmodel::explore
