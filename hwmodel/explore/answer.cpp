@@ -75,9 +75,13 @@ std::int64_t amount_of(const Point& point, std::size_t front) {
 
 bool preferred(const Point& a, const Point& b) { return order_of(a) < order_of(b); }
 
+std::optional<std::size_t> best_point(const Swept& swept) {
+  return best_of(swept.points, [](const Point& p) { return p.taken.fits(); });
+}
+
 Answer answer_of(const Question& question, const Axes& axes, const Swept& swept) {
   Answer answer;
-  answer.best = best_of(swept.points, [](const Point& p) { return p.taken.fits(); });
+  answer.best = best_point(swept);
   const std::int64_t speed = answer.best ? swept.points[*answer.best].speed : 0;
   for (std::size_t f = 0; f < kFronts; ++f) {
     answer.fronts[f] = front_of(swept.points, f);

@@ -35,6 +35,8 @@ struct Answer {
   int next_clock_mhz = 0;
 };
 
+std::optional<std::size_t> best_point(const Swept& swept);  // of those that fit
+
 Answer answer_of(const Question& question, const Axes& axes, const Swept& swept);
 
 // Says if `a` is to be preferred. The faster one is, of equals the one that fills the device less, and then

@@ -1,5 +1,7 @@
 #include <cmath>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "hwmodel/explore/ranges.h"
 

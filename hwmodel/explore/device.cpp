@@ -59,7 +59,7 @@ Device load_device(const std::string& name, const std::vector<std::string>& over
   d.lutram = from.integer("lutram", 0, kMostUnits);
   from.integer("clock", 1, 10000);  // it is whole
   const Ranged<double> clock = read_of_device(from, "clock", 1, 10000, given);
-  const auto mhz = [](double of) { return static_cast<int>(std::lround(of)); };
+  const auto mhz = [](double number) { return static_cast<int>(std::lround(number)); };
   d.clock_mhz = {mhz(clock.value), mhz(clock.low), mhz(clock.high), clock.source};
   d.fill = read_of_device(from, "fill", 0.01, 1, given);
   from.finish();

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "hwmodel/explore/answer.h"
 
@@ -69,7 +71,7 @@ class Search {
   std::size_t kinds_ = 0;
 };
 
-// Says if any stage of the designs has this number. What is no stage is in most of them.
+// Says if any stage of the designs has this number. All other numbers are taken to matter.
 bool matters(const Coefficient& coefficient, const Swept& swept) {
   constexpr std::string_view kStage = "family.stage.";
   if (!coefficient.name.starts_with(kStage)) return true;

@@ -22,8 +22,9 @@ inline constexpr std::int64_t kMostUnits = 100'000'000;
 std::string read_source(scene::Reader& from, const std::string& key,
                         const std::optional<std::string>& missing = {});
 
-// Each reads NAME, NAME_range and NAME_source. A range must hold the number. If the file has none, it follows
-// from the source, which is `source` where there is no NAME_source.
+// Each reads a number, its range and its source, which stand at keys that begin with `name`. A range must
+// hold the number. If the file has none, it follows from the source. Without a source of its own, the number
+// has the one that is given here.
 Ranged<std::int64_t> read_logic(scene::Reader& from, const std::string& name, const std::string& source,
                                 const Given& given);
 Ranged<double> read_of_device(scene::Reader& from, const std::string& name, double lowest, double highest,

@@ -46,8 +46,8 @@ inline constexpr std::array kAxes{Axis{"lanes", &Axes::lanes},        Axis{"casc
                                   Axis{"overlap", &Axes::overlap},    Axis{"coded", &Axes::coded},
                                   Axis{"clock_mhz", &Axes::clock_mhz}};
 Axes usual_axes(const Question& question);
-// Returns numbers of lanes for a grid that is so many cells wide. Of numbers that make as many blocks, all
-// but the least would leave lanes idle.
+// Returns numbers of lanes for a grid that is so many cells wide. If several make as many blocks, it is the
+// least of them: the others would leave lanes idle.
 std::vector<int> lanes_worth_trying(int across);
 // Returns the values of hw.tile for the lanes and steps of `hw`.
 std::vector<int> tiles_of(const Axes& axes, const Question& question, const Configuration& hw);

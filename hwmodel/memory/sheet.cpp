@@ -10,6 +10,7 @@
 #include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/import_dramsys.h"
 #include "hwmodel/memory/import_ramulator.h"
+#include "kernel/scene/text/compose.h"
 #include "kernel/scene/text/document.h"
 #include "kernel/scene/text/error.h"
 #include "kernel/scene/text/reader.h"
@@ -198,8 +199,10 @@ bool is_memory_file(const std::string& name) {
                      [&](const Format& format) { return name.ends_with(format.end); });
 }
 
-memory::Parameters load_memory(const std::string& name, const std::string& place) {
-  const scene::Value document = document_of(name, place);
+memory::Parameters load_memory(const std::string& name, const std::string& place,
+                               const std::vector<std::string>& overrides) {
+  scene::Value document = document_of(name, place);
+  for (const std::string& assignment : overrides) scene::apply_override(document, assignment);
   memory::Parameters p;
   p.name = name;
   scene::Reader root(document, "");

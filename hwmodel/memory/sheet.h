@@ -18,7 +18,8 @@ const std::vector<MemoryFile>& memory_files();
 bool is_memory_file(const std::string& name);
 
 // Loads a memory by the name of one of these files, or by the path of a file. Throws scene::InputError. The
-// error names `place` if there is no such memory, else the place in the file.
-memory::Parameters load_memory(const std::string& name, const std::string& place);
-
+// error names `place` if there is no such memory, else the place in the file. `overrides` are such as
+// "memory.channels=4".
+memory::Parameters load_memory(const std::string& name, const std::string& place,
+                               const std::vector<std::string>& overrides = {});
 }  // namespace voxmelt::hwmodel

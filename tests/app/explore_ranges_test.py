@@ -48,14 +48,14 @@ class Ranges(unittest.TestCase):
                 for end in ("better", "worse"):
                     every = [(one["name"], one[end]) for one in alone]
                     self.assertEqual(self.speed(ranges["all"][end]), self.plain(device, every), end)
-                spans = [self.speed(one["best"]["better"]) - self.speed(one["best"]["worse"]) for one in alone]
+                spans = [(self.speed(one["best"]["better"]) or 0) - (self.speed(one["best"]["worse"]) or 0) for one in alone]
                 self.assertEqual(spans, sorted(spans, reverse=True))
                 self.assertGreater(spans[0], 0)
                 for one in alone[:2] + alone[-1:]:
                     for end in ("better", "worse"):
                         self.assertEqual(self.speed(one["best"][end]), self.plain(device, [(one["name"], one[end])]), one)
                 self.assertIn(f"{alone[0]['name']} decides most", said)
-                low, high = (self.speed(ranges["all"][end]) / 1e9 for end in ("worse", "better"))
+                low, high = ((self.speed(ranges["all"][end]) or 0) / 1e9 for end in ("worse", "better"))
                 self.assertIn(f"Over the ranges of {len(alone)} numbers the best design has {low:.3f} to {high:.3f} Gcell", said)
 
     def test_designs_are_as_full_as_they_may_be(self):

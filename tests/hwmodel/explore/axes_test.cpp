@@ -1,7 +1,10 @@
 // The axes of a sweep: which values are tried.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "hwmodel/explore/sweep.h"

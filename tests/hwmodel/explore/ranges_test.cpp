@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@ bool holds(const Ranged<T>& number, T value) {
   return number.low <= value && value <= number.high;
 }
 
-// What a synthesis of single stages found after the files had been written.
+// A synthesis of single stages found these numbers after the files had been written.
 TEST(Ranges, HoldWhatASynthesisFound) {
   const Family us = load_device("zu7ev", {}).family, ecp5 = load_device("ecp5-85f", {}).family;
   EXPECT_TRUE(holds<std::int64_t>(us.stages.at(StageKind::viscous_spread).lane.lut, 3461));
@@ -29,8 +31,9 @@ TEST(Ranges, HoldWhatASynthesisFound) {
   EXPECT_EQ(ecp5.random_block.lut.value, us.random_block.lut.value);
   // Where a factor of 1.73 is assumed, 1.00 is possible.
   for (const auto& [kind, cost] : ecp5.stages)
-    if (cost.lane.lut.source.find("1.73") != std::string::npos)
+    if (cost.lane.lut.source.find("1.73") != std::string::npos) {
       EXPECT_TRUE(holds(cost.lane.lut, us.stages.at(kind).lane.lut.value)) << name_of(kind);
+    }
 }
 
 TEST(Ranges, FollowFromTheSource) {
