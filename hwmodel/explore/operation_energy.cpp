@@ -44,9 +44,9 @@ OperationEnergy energy_of_token(StageKind kind, const Units& units, const std::v
   if (const auto cost = family.stages.find(kind); cost != family.stages.end()) {
     const auto& multipliers = cost->second.multipliers;
     const std::int64_t blocks = units.random_blocks * ((lanes + 7) / 8);
-    energy.add = energy_of_addition(
-        static_cast<double>(lanes * (cost->second.lane.lut + units.dividers * family.divider.lut) +
-                            blocks * family.random_block.lut));
+    energy.add = energy_of_addition(static_cast<double>(
+        lanes * (cost->second.lane.lut.value + units.dividers * family.divider.lut.value) +
+        blocks * family.random_block.lut.value));
     for (int i = 0; i < units.multipliers && !multipliers.empty(); ++i) {
       const Widths& widths = multipliers[std::min<std::size_t>(i, multipliers.size() - 1)];
       energy.multiply += lanes * energy_of_product(widths.wide, widths.narrow);

@@ -23,9 +23,9 @@ TEST(OperationEnergy, IsThatOfItsSource) {
 // 3200. Its buffer has 4096 words of 2 x 8 bits, which are 8 KiB: a word takes 2.5 pJ to write, and to read.
 TEST(OperationEnergy, ATokenWorkedByHand) {
   Family family;
-  family.divider.lut = 640;
-  family.random_block.lut = 3200;
-  family.stages[StageKind::melt] = {{320, 0, ""}, {{32, 16}}};
+  family.divider.lut.value = 640;
+  family.random_block.lut.value = 3200;
+  family.stages[StageKind::melt] = {{{320}, {}}, {{32, 16}}};
   const Units units{.multipliers = 3, .dividers = 1, .random_blocks = 1};
   const std::vector<BufferCost> buffers{{"line", 4096, 2, 8}};
   const OperationEnergy token = energy_of_token(StageKind::melt, units, buffers, 2, family);
