@@ -1,4 +1,4 @@
-// What `voxmelt explore` was asked, and a scene of it at the step from which a design is sought.
+// A command asks `voxmelt explore` for this, about a scene at the step from which a design is sought.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// What was asked and what was answered stand in these parts. All others follow from them, or are times.
+// These parts hold the question, and then the answer. All others follow from them, or are times.
 constexpr const char* kAsked[] = {"scene",     "grid",        "first_step", "steps",      "visibility_every",
                                   "device",    "memory",      "available",  "shell",      "lutram",
                                   "clock_mhz", "clock_range", "fill",       "fill_range", "family",
