@@ -81,6 +81,11 @@ std::int64_t until_reached(const GroundBlock& block, const PlaceOverGround& plac
   return room <= 0 ? 1 : room / nearer + 1;
 }
 
+// A leap of no sample would be right for ever: the ray would stand, and the stage be busy with it.
+std::int64_t bounded(std::int64_t steps, std::int64_t most) {
+  return std::max<std::int64_t>(std::min(most, steps), 1);
+}
+
 }  // namespace
 
 std::int64_t longest_leap(const SkipMap& skip, int spacing, Leap why, const SampleOnRay& sample) {
@@ -109,7 +114,7 @@ void Checker::leapt(const LeapTaken& leap) {
     const std::int64_t above = leap.why == Leap::over_slopes ? expectation_.above_ground(position) : 0;
     const Vec sample = vec_of(expectation_.at(expected_ray, leap.k >> 8));
     const std::int64_t most = longest_leap(registers_.ground.blocks, leap.why, {at, sample, step, above});
-    return compare("ground", leap.id, "samples to the next one that may be in it", std::min(most, leap.steps),
+    return compare("ground", leap.id, "samples to the next one that may be in it", bounded(leap.steps, most),
                    leap.steps, &at);
   }
   const picture::Vector position = expectation_.at(expected_ray, leap.k);
@@ -117,7 +122,7 @@ void Checker::leapt(const LeapTaken& leap) {
   const Vec at = vec_of(position);
   const std::int64_t most =
       longest_leap(registers_.skip, registers_.camera.spacing, leap.why, {to_lattice(at), step, level});
-  compare("walk", leap.id, "samples to the next one that may be matter", std::min(most, leap.steps),
+  compare("walk", leap.id, "samples to the next one that may be matter", bounded(leap.steps, most),
           leap.steps, &at);
 }
 

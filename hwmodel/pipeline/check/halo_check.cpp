@@ -3,6 +3,7 @@
 #include <string>
 
 #include "hwmodel/pipeline/model/shape.h"
+#include "hwmodel/pipeline/model/tiling.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -20,6 +21,20 @@ std::unique_ptr<Mismatch> at_cut(const Design& design, int tile, int owned, int 
                          std::to_string(needed) + " cells beside it; the tile has " + std::to_string(held)});
 }
 
+// The halo follows from what the stages say that they reach. So that is compared in every run, cut or not.
+std::unique_ptr<Mismatch> short_reach(const Design& design) {
+  const int needed = dependence_of_step(design), said = reach_of_step(design);
+  if (said >= needed) return nullptr;
+  return std::make_unique<Mismatch>(
+      Mismatch{.kind = Mismatch::Kind::halo,
+               .where = "tiles",
+               .field = "cells that a step reaches",
+               .expected = needed,
+               .actual = said,
+               .detail = "a cell depends on " + std::to_string(needed) +
+                         " cells beside it in a step; the stages say that they reach " + std::to_string(said)});
+}
+
 }  // namespace
 
 int dependence_of_step(const Design& design) {
@@ -35,6 +50,7 @@ int dependence_of_step(const Design& design) {
 }
 
 std::unique_ptr<Mismatch> narrow_halo(const Design& design, int steps) {
+  if (auto short_one = short_reach(design)) return short_one;
   const Shape& shape = design.shape;
   const int needed = steps * dependence_of_step(design);
   for (int tile = 0; tile < shape.tiles(); ++tile) {
