@@ -25,14 +25,14 @@ std::unique_ptr<Mismatch> at_cut(const Design& design, int tile, int owned, int 
 std::unique_ptr<Mismatch> short_reach(const Design& design) {
   const int needed = dependence_of_step(design), said = reach_of_step(design);
   if (said >= needed) return nullptr;
-  return std::make_unique<Mismatch>(
-      Mismatch{.kind = Mismatch::Kind::halo,
-               .where = "tiles",
-               .field = "cells that a step reaches",
-               .expected = needed,
-               .actual = said,
-               .detail = "a cell depends on " + std::to_string(needed) +
-                         " cells beside it in a step; the stages say that they reach " + std::to_string(said)});
+  return std::make_unique<Mismatch>(Mismatch{
+      .kind = Mismatch::Kind::halo,
+      .where = "tiles",
+      .field = "cells that a step reaches",
+      .expected = needed,
+      .actual = said,
+      .detail = "a cell depends on " + std::to_string(needed) +
+                " cells beside it in a step; the stages say that they reach " + std::to_string(said)});
 }
 
 }  // namespace
