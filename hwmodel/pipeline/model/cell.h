@@ -65,7 +65,10 @@ struct Cell : StoredCell {
   }
 
   // No byte of a cell is without a meaning, so cells compare as bytes. The simulation compares every token.
-  friend bool operator==(const Cell& a, const Cell& b) { return std::memcmp(&a, &b, sizeof(Cell)) == 0; }
+  friend bool operator==(const Cell& a, const Cell& b) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the assertion below allows it
+    return std::memcmp(&a, &b, sizeof(Cell)) == 0;
+  }
 };
 static_assert(sizeof(Cell) == 32 && std::has_unique_object_representations_v<Cell>);
 

@@ -48,6 +48,7 @@ TEST(Configuration, RowsReadAndWriteTheirNumbers) {
 
 TEST(Configuration, OverridesGoByTheTable) {
   std::vector<std::string> sets;
+  sets.reserve(kOthers.size());
   for (const auto& [name, value] : kOthers) sets.push_back("hw." + name + '=' + std::to_string(value));
   EXPECT_EQ(values_of(load_preset({}, sets).configuration), kOthers);
   for (const HwKey& key : kHwKeys) {
