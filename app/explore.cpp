@@ -40,12 +40,15 @@ void split_sets(ExploreCommand& command) {
   command.common.sets = std::move(scene);
 }
 
-// Chooses the best design, and others of the front at equal distances, the slowest among them.
+// Chooses the best design, and others of the front at equal distances, the slowest among them. The most
+// frugal one takes the place of one between.
 std::vector<std::size_t> chosen_points(const explore::Answer& answer, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   const std::size_t n = answer.front.size(), count = std::min(wanted, n);
   for (std::size_t i = 0; i < count; ++i)
     chosen.push_back(answer.front[count == 1 ? 0 : i * (n - 1) / (count - 1)]);
+  if (count > 2 && std::find(chosen.begin(), chosen.end(), *answer.frugal) == chosen.end())
+    chosen[count / 2] = *answer.frugal;
   return chosen;
 }
 

@@ -66,11 +66,12 @@ std::int64_t best_speed(const Question& question, const Axes& axes) {
 }  // namespace
 
 std::string_view front_name(std::size_t front) {
-  return front < kResources ? kResourceNames[front] : "clock";
+  return front < kResources ? kResourceNames[front] : front == kClockFront ? "clock" : "energy";
 }
 
 std::int64_t amount_of(const Point& point, std::size_t front) {
-  return front < kResources ? point.taken.amounts[front] : point.clock_mhz;
+  if (front < kResources) return point.taken.amounts[front];
+  return front == kClockFront ? point.clock_mhz : point.energy;
 }
 
 bool preferred(const Point& a, const Point& b) { return order_of(a) < order_of(b); }
@@ -87,6 +88,7 @@ Answer answer_of(const Question& question, const Axes& axes, const Swept& swept)
     answer.fronts[f] = front_of(swept.points, f);
     answer.front.insert(answer.front.end(), answer.fronts[f].begin(), answer.fronts[f].end());
   }
+  if (answer.best) answer.frugal = answer.fronts[kEnergyFront].front();
   for (const Resource r : kEachResource) answer.next[r] = next_of(question, swept, speed, r);
   std::sort(answer.front.begin(), answer.front.end(),
             [&](std::size_t a, std::size_t b) { return preferred(swept.points[a], swept.points[b]); });

@@ -13,9 +13,10 @@
 
 namespace voxmelt::hwmodel::explore {
 
-// There is one front for each resource, and a last one for the clock.
-inline constexpr std::size_t kFronts = kResources + 1;
-std::string_view front_name(std::size_t front);  // "lut", ..., "clock"
+// There is one front for each resource, one for the clock, and a last one for the energy.
+inline constexpr std::size_t kClockFront = kResources, kEnergyFront = kResources + 1,
+                             kFronts = kResources + 2;
+std::string_view front_name(std::size_t front);  // "lut", ..., "clock", "energy"
 std::int64_t amount_of(const Point& point, std::size_t front);
 
 // Describes the cheapest step to a faster design by one resource alone.
@@ -27,6 +28,7 @@ struct Next {
 
 struct Answer {
   std::optional<std::size_t> best;                       // none if nothing fits
+  std::optional<std::size_t> frugal;                     // the most cell-steps per joule of those that fit
   std::array<std::vector<std::size_t>, kFronts> fronts;  // speed against each, slowest first
   std::vector<std::size_t> front;                        // all of these together, fastest first
   std::array<Next, kResources> next;

@@ -3,7 +3,9 @@
 #include <optional>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/explore/operation_energy.h"
 #include "hwmodel/explore/timing.h"
+#include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/check/falling.h"
 #include "hwmodel/pipeline/model/tiling.h"
@@ -38,6 +40,7 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   const RunTime time = time_of(parts, point.hw, point.clock_mhz, question, checked.steps);
   checked.predicted = time.cycles;
   checked.predicted_on = time.on_memory;
+  checked.predicted_energy = time.energy;
 
   VerifyOptions options;
   options.steps = checked.steps;
@@ -57,6 +60,9 @@ Checked check(const Question& question, const Swept& swept, std::size_t at, std:
   checked.on_memory = report.cycles;
   checked.cycles =
       question.memory ? cycles_without_waits(question, point.hw, checked.steps, input) : report.cycles;
+  checked.energy.operations = energy_of_run(report, point.hw.lanes, question.device.family).all();
+  if (streams)
+    checked.energy.memory = 1000 * memory::energy_of(streams->all_counts(), *question.memory).all();
   if (question.memory) checked.allowed = allowed_error(checked.on_memory, *question.memory, point.clock_mhz);
   checked.speed = speed_of(question, {checked.cycles, checked.on_memory, time.steps}, point.clock_mhz);
   checked.predicted_speed = speed_of(question, time, point.clock_mhz);

@@ -24,6 +24,7 @@ struct Checked {
   std::int64_t on_memory = 0, predicted_on = 0;  // with the memory's time
   std::int64_t allowed = 0;                      // cycles by which predicted_on may be off
   std::int64_t speed = 0, predicted_speed = 0;   // thousand cell-steps a second, in these steps
+  RunEnergy energy, predicted_energy;            // of these steps
   double error() const;                          // relative error of predicted_on
 
   bool within_bounds() const { return std::abs(predicted_on - on_memory) <= allowed; }

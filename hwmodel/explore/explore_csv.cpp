@@ -14,7 +14,8 @@ std::string csv_of(const Explored& explored) {
   for (const HwKey& key : kHwKeys)
     if (key.chosen()) text += std::string(key.name) + ',';
   text +=
-      "clock_mhz,cycles,cycles_on_memory,cell_steps_per_second,lut,ff,dsp,bram,uram,lutram,fullest,fullest_"
+      "clock_mhz,cycles,cycles_on_memory,cell_steps_per_second,femtojoules,memory_femtojoules,lut,ff,dsp,"
+      "bram,uram,lutram,fullest,fullest_"
       "better,fullest_worse,fits,"
       "on_front,verified,simulated_cycles,simulated_on_memory\n";
   std::vector<bool> on_front(explored.swept.points.size());
@@ -23,7 +24,8 @@ std::string csv_of(const Explored& explored) {
     const Point& p = explored.swept.points[i];
     for (const HwKey& key : kHwKeys)
       if (key.chosen()) text += fmt::format("{},", key.get(p.hw));
-    text += fmt::format("{},{},{},{}000", p.clock_mhz, p.cycles, p.on_memory, p.speed);
+    text += fmt::format("{},{},{},{}000,{},{}", p.clock_mhz, p.cycles, p.on_memory, p.speed, p.energy,
+                        p.memory_energy);
     for (const std::int64_t amount : p.taken.amounts) text += fmt::format(",{}", amount);
     text += fmt::format(",{},{:.6f},{:.6f},{:.6f},{},{}", p.taken.lutram, p.taken.fullest,
                         explored.ranges.fullest[i].better, explored.ranges.fullest[i].worse,

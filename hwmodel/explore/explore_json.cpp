@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -112,6 +113,14 @@ json axes_json(const Axes& axes) {
   return result;
 }
 
+json energy_json(std::int64_t all, std::int64_t memory) {
+  return {{"all", all}, {"operations", all - memory}, {"memory", memory}};
+}
+json energy_json(const Explored& explored, const RunEnergy& energy, const Checked& checked) {
+  const auto each = [&](double part) { return per_cell_step(explored.question, checked.steps, part); };
+  return energy_json(each(energy.all()), each(energy.memory));
+}
+
 json point_json(const Explored& explored, std::size_t at) {
   const Point& p = explored.swept.points[at];
   json hw;
@@ -122,6 +131,7 @@ json point_json(const Explored& explored, std::size_t at) {
               {"cycles", p.cycles},
               {"cycles_on_memory", p.on_memory},
               {"cell_steps_per_second", p.speed * 1000},
+              {"femtojoules_per_cell_step", energy_json(p.energy, p.memory_energy)},
               {"takes", amounts_json(p.taken.amounts)},
               {"lutram", p.taken.lutram},
               {"fullest", std::isfinite(p.taken.fullest) ? json(p.taken.fullest) : json()},
@@ -131,16 +141,19 @@ json point_json(const Explored& explored, std::size_t at) {
     result["beyond_bounds"] = beyond_bounds(*explored.question.memory, p.clock_mhz);
   const Checked* checked = checked_at(explored, at);
   if (checked == nullptr) return result;
-  result["simulated"] = {{"steps", checked->steps},
-                         {"compared_cells", checked->compared_cells},
-                         {"cycles", checked->cycles},
-                         {"predicted_cycles", checked->predicted},
-                         {"cycles_on_memory", checked->on_memory},
-                         {"predicted_on_memory", checked->predicted_on},
-                         {"cell_steps_per_second", checked->speed * 1000},
-                         {"error", checked->error()},
-                         {"allowed_cycles", checked->allowed},
-                         {"within_bounds", checked->within_bounds()}};
+  result["simulated"] = {
+      {"steps", checked->steps},
+      {"compared_cells", checked->compared_cells},
+      {"cycles", checked->cycles},
+      {"predicted_cycles", checked->predicted},
+      {"cycles_on_memory", checked->on_memory},
+      {"predicted_on_memory", checked->predicted_on},
+      {"cell_steps_per_second", checked->speed * 1000},
+      {"femtojoules_per_cell_step", energy_json(explored, checked->energy, *checked)},
+      {"predicted_femtojoules_per_cell_step", energy_json(explored, checked->predicted_energy, *checked)},
+      {"error", checked->error()},
+      {"allowed_cycles", checked->allowed},
+      {"within_bounds", checked->within_bounds()}};
   return result;
 }
 
@@ -234,6 +247,7 @@ std::string json_of(const Explored& explored) {
               {"seconds", explored.swept.seconds},
               {"answer", sentence_of(explored)},
               {"best", explored.answer.best ? point_json(explored, *explored.answer.best) : json()},
+              {"frugal", explored.answer.frugal ? point_json(explored, *explored.answer.frugal) : json()},
               {"next", next_json(explored)},
               {"ranges", ranges_json(explored.ranges)},
               {"front", front},

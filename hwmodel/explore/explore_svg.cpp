@@ -62,9 +62,10 @@ std::string number(double value) {
   return fmt::format("{:g}", value);
 }
 
-// Is what an axis shows: its scale is logarithmic, so 0 stands at 1.
+// Is what an axis shows: its scale is logarithmic, so 0 stands at 1. Energies are shown in picojoules.
 double shown_amount(const Point& p, std::size_t front) {
-  return static_cast<double>(std::max<std::int64_t>(1, amount_of(p, front)));
+  const auto amount = static_cast<double>(std::max<std::int64_t>(1, amount_of(p, front)));
+  return front == kEnergyFront ? amount * 1e-3 : amount;
 }
 
 double giga(const Point& p) { return static_cast<double>(p.speed) * 1e-6; }
@@ -112,9 +113,10 @@ struct Panel {
       marks += fmt::format(
           "<circle class='{0}' cx='{1:.1f}' cy='{2:.1f}' r='4'><title>{3} lanes x {4} steps, {5} MHz: "
           "{6:.3f} "
-          "Gcell-steps/s, {7} {8}; {0}</title></circle>\n",
+          "Gcell-steps/s, {7:.8g} {8}; {0}</title></circle>\n",
           state_of(checked), x(amount(p)), y(giga(p)), p.hw.lanes, p.hw.cascade, p.clock_mhz,
-          static_cast<double>(believed_speed(explored, i)) * 1e-6, amount_of(p, f), front_name(f));
+          static_cast<double>(believed_speed(explored, i)) * 1e-6, shown_amount(p, f),
+          f == kEnergyFront ? "pJ a cell-step" : front_name(f));
     }
     std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
     if (const auto& front = explored.answer.fronts[f]; !front.empty()) {
@@ -144,7 +146,18 @@ std::string escaped(const std::string& text) {
 std::string name_of(std::size_t front) {
   std::string name(front_name(front));
   for (char& c : name) c = scene::upper_case(c);
-  return front < kResources ? name : "clock, MHz";
+  if (front < kResources) return name;
+  return front == kClockFront ? "clock, MHz" : "energy, pJ a cell-step";
+}
+
+// Returns the right end of an axis: what the device has, or the most that a design takes.
+double most_of(const Explored& explored, std::size_t front) {
+  if (front < kResources) return static_cast<double>(explored.question.device.usable()[front]);
+  if (front == kClockFront) return explored.question.device.clock_mhz.value;
+  double most = 0;
+  for (const Point& p : explored.swept.points)
+    if (p.taken.fits()) most = std::max(most, shown_amount(p, front));
+  return most;
 }
 
 double top_of(std::size_t panel) { return kHeight * static_cast<double>(panel / 2); }
@@ -186,16 +199,15 @@ std::string svg_of(const Explored& explored) {
   if (fastest > 0)
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const std::size_t f = shown[i];
-      const auto most =
-          static_cast<double>(f < kResources ? usable[f] : explored.question.device.clock_mhz.value);
+      const double most = most_of(explored, f);
       double least = most;
       for (const std::size_t at : explored.answer.fronts[f])
         least = std::min(least, shown_amount(explored.swept.points[at], f));
       const Panel panel{explored, f, Scale(least * 0.8, most * 1.05, kLeft, kWidth - kRight),
                         Scale(slowest * 0.8, fastest * 1.3, kHeight - kBottom, kTop)};
       svg += fmt::format("<g transform='translate({} {})'>\n{}{}{}{}</g>\n", i % 2 == 0 ? 0 : kWidth,
-                         kHead + top_of(i), panel.axes(name_of(f)), panel.all(), panel.limit(most),
-                         panel.front());
+                         kHead + top_of(i), panel.axes(name_of(f)), panel.all(),
+                         f == kEnergyFront ? "" : panel.limit(most), panel.front());
     }
   svg += fmt::format(
       "<circle class='verified' cx='30' cy='105' r='4'/><text x='40' y='109'>verified</text>"

@@ -23,6 +23,8 @@ double gain(std::int64_t speed, std::int64_t than) {
   return percent(std::max<std::int64_t>(0, speed - than), than);
 }
 std::string giga(std::int64_t speed) { return fmt::format("{:.3f}", static_cast<double>(speed) * 1e-6); }
+// Nanojoules of femtojoules.
+std::string nano(std::int64_t energy) { return fmt::format("{:.4f}", static_cast<double>(energy) * 1e-6); }
 
 std::string unit_of(Resource r) {
   std::string name(kResourceNames[r]);
@@ -37,10 +39,10 @@ std::string beyond_of(const Explored& explored, const Point& p) {
 
 std::string row_of(const Explored& explored, std::size_t at) {
   const Point& p = explored.swept.points[at];
-  std::string text =
-      fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", p.hw.lanes, p.hw.cascade,
-                  p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no", p.hw.coded ? "yes" : "no",
-                  p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile), p.clock_mhz, giga(p.speed));
+  std::string text = fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9} {:>8}", p.hw.lanes,
+                                 p.hw.cascade, p.hw.substeps, p.hw.fifo_depth, p.hw.overlap ? "yes" : "no",
+                                 p.hw.coded ? "yes" : "no", p.hw.tile == 0 ? "-" : std::to_string(p.hw.tile),
+                                 p.clock_mhz, giga(p.speed), nano(p.energy));
   for (const std::int64_t amount : p.taken.amounts) text += fmt::format(" {:>7}", amount);
   const Fullest& fullest = explored.ranges.fullest[at];
   text += fmt::format(" {:>6.1f} {:>11} {:>7.1f}  ", 100 * p.taken.fullest,
@@ -140,6 +142,29 @@ std::string next_text(const Explored& explored) {
                             gain(explored.answer.with_next_clock, best));
 }
 
+// Says which design has the most cell-steps per joule, beside the fastest one.
+std::string energy_text(const Explored& explored) {
+  const auto& points = explored.swept.points;
+  const std::size_t frugal = *explored.answer.frugal, best = *explored.answer.best;
+  const auto cost_of = [&](std::size_t at) {
+    const Point& p = points[at];
+    std::string text = fmt::format("{} nJ a cell-step", nano(p.energy));
+    if (explored.question.memory)
+      text += explored.question.memory->rails.empty()
+                  ? fmt::format(" without the memory, whose sheet has no currents")
+                  : fmt::format(", {} of them the memory's", nano(p.memory_energy));
+    // A femtojoule times a thousand a second is a picowatt.
+    return text + fmt::format(", {:.3f} W at {} Gcell-steps/s",
+                              1e-12 * static_cast<double>(p.energy) * static_cast<double>(p.speed),
+                              giga(p.speed));
+  };
+  std::string text = fmt::format("  the most frugal design has {}: {:.3f} Gcell-steps per joule, {}\n",
+                                 design_text(points[frugal]),
+                                 1e6 / static_cast<double>(points[frugal].energy), cost_of(frugal));
+  if (frugal != best) text += fmt::format("  the fastest one takes {}\n", cost_of(best));
+  return text;
+}
+
 // Sets the design beside this machine.
 std::string software_text(const Explored& explored) {
   const SoftwareRun& run = *explored.software;
@@ -211,15 +236,15 @@ std::string text_of(const Explored& explored) {
                   explored.question.memory ? explored.question.memory->title : "always answers",
                   explored.swept.points.size(), explored.question.steps, explored.swept.seconds,
                   explored.answer.front.size());
-  text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9}", "lanes", "cascade", "substeps",
-                      "depth", "overlap", "coded", "tile", "MHz", "Gcell/s");
+  text += fmt::format("{:>5} {:>7} {:>8} {:>5} {:>7} {:>5} {:>5} {:>5} {:>9} {:>8}", "lanes", "cascade",
+                      "substeps", "depth", "overlap", "coded", "tile", "MHz", "Gcell/s", "nJ");
   for (const Resource r : kEachResource) text += fmt::format(" {:>7}", unit_of(r));
   text += fmt::format(" {:>6} {:>11} {:>7}\n", "full %", "range %", "waits %");
   for (const std::size_t at : explored.answer.front) text += row_of(explored, at);
   for (const Checked& checked : explored.checked)
     if (!checked.good) text += checked.difference;
   text += sentence_of(explored) + "\n";
-  if (explored.answer.best) text += next_text(explored);
+  if (explored.answer.best) text += next_text(explored) + energy_text(explored);
   if (explored.software) text += software_text(explored);
   return text + ranges_table(explored);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hwmodel/explore/operation_energy.h"
 #include "hwmodel/pipeline/model/random_block.h"
 #include "hwmodel/pipeline/model/stages.h"
 
@@ -55,10 +56,17 @@ PartList part_list(const Design& design, const Family& family) {
   list.fed = design.hot() && design.parameters.heat.radiation;
   list.falls = design.parameters.pieces.fall;
   list.memories = {{}};
+  const CodeLayout layout(design);
+  list.coder_energy =
+      energy_of_token(StageKind::reader, {}, reader_buffers(layout), design.shape.lanes, family).all() +
+      energy_of_token(StageKind::writer, {}, writer_buffers(layout), design.shape.lanes, family).all();
   for (const auto& stage : make_step(list.design)) {
     list.stages.push_back(
         {stage->kind(), stage->lag(), stage->output_bits(), stage->buffers(), stage->units()});
-    add_stage(list, list.stages.back(), family);
+    StagePart& part = list.stages.back();
+    part.token_energy =
+        energy_of_token(part.kind, part.units, part.buffers, design.shape.lanes, family).all();
+    add_stage(list, part, family);
   }
   return list;
 }

@@ -19,13 +19,15 @@ struct StagePart {
   int output_bits = 0;  // bits of a lane
   std::vector<BufferCost> buffers;
   Units units;
+  double token_energy = 0;  // picojoules of its operations
 };
 
 struct PartList {
   Design design;
   std::vector<StagePart> stages;
-  bool fed = false;    // takes irradiance
-  bool falls = false;  // has pieces that fall: the first time step takes their bits
+  bool fed = false;         // takes irradiance
+  bool falls = false;       // has pieces that fall: the first time step takes their bits
+  double coder_energy = 0;  // picojoules of a token in reader and writer, with hw.coded
   std::shared_ptr<const Content> content = std::make_shared<Content>();  // contents of the first state
 
   // These count the parts of a family for one time step, without its channels and ports.

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "hwmodel/explore/dram_time.h"
+#include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/ratio.h"
 #include "hwmodel/pipeline/model/tiling.h"
 
@@ -137,7 +138,14 @@ std::vector<RunTime> times_of(const PartList& parts, const Configuration& hw, co
   for (const Train& train : kinds_of_trains(design, hw, question.first_step, steps, *parts.content)) {
     std::vector<std::int64_t> on_memory(clocks.size(), train.work.cycles);
     if (question.memory) on_memory = cycles_on(train.work, *question.memory, clocks, train.placement);
+    const double tokens = energy_of_tokens(train, parts, hw.coded);
     for (std::size_t i = 0; i < clocks.size(); ++i) {
+      RunEnergy energy{tokens};
+      if (question.memory) {
+        const memory::Counts counts = counts_of(train.work, on_memory[i], clocks[i], *question.memory);
+        energy.memory = 1000 * memory::energy_of(counts, *question.memory).all();
+      }
+      times[i].energy += static_cast<double>(train.times) * energy;
       times[i].cycles += train.times * train.work.cycles;
       times[i].on_memory += train.times * on_memory[i];
       times[i].steps += train.times * train.steps;
@@ -158,6 +166,11 @@ std::int64_t speed_of(const Question& question, const RunTime& time, int clock_m
   return std::llround(cell_steps * clock_mhz * 1e3 / static_cast<double>(time.on_memory));
 }
 
+std::int64_t per_cell_step(const Question& question, std::int64_t steps, double picojoules) {
+  return std::llround(1000 * picojoules /
+                      (static_cast<double>(question.grid.cells()) * static_cast<double>(steps)));
+}
+
 namespace {
 
 // Adds the points for all values of the other axes.
@@ -173,9 +186,13 @@ void add_points(Swept& swept, std::size_t at, Configuration hw, const Question& 
         hw.overlap = overlap == 1;
         std::vector<RunTime>& times = known[{hw.interval(), coded, overlap}];
         if (times.empty()) times = times_of(parts, hw, axes.clock_mhz, question, question.steps);
-        for (std::size_t i = 0; i < times.size(); ++i)
-          swept.points.push_back({hw, at, axes.clock_mhz[i], times[i].cycles, times[i].on_memory,
-                                  speed_of(question, times[i], axes.clock_mhz[i]), taken});
+        for (std::size_t i = 0; i < times.size(); ++i) {
+          const RunTime& time = times[i];
+          swept.points.push_back({hw, at, axes.clock_mhz[i], time.cycles, time.on_memory,
+                                  speed_of(question, time, axes.clock_mhz[i]), taken,
+                                  per_cell_step(question, time.steps, time.energy.all()),
+                                  per_cell_step(question, time.steps, time.energy.memory)});
+        }
       }
     }
   }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hwmodel/explore/part_list.h"
-#include "hwmodel/explore/schedule.h"
+#include "hwmodel/explore/run_energy.h"
 #include "hwmodel/memory/parameters.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -71,6 +71,8 @@ struct Point {
   std::int64_t on_memory = 0;  // with the memory's time
   std::int64_t speed = 0;      // thousand cell-steps a second
   Taken taken;
+  std::int64_t energy = 0;         // femtojoules of a cell-step: operations, and the memory
+  std::int64_t memory_energy = 0;  // of the memory alone
 };
 
 struct Swept {
@@ -93,9 +95,12 @@ std::optional<std::int64_t> least_of(Resource resource, const PartList& parts, c
 // Holds the results of the closed form for a run.
 struct RunTime {
   std::int64_t cycles = 0, on_memory = 0, steps = 0;
+  RunEnergy energy{};
 };
 RunTime time_of(const PartList& parts, const Configuration& hw, int clock_mhz, const Question& question,
                 std::int64_t steps);
 std::int64_t speed_of(const Question& question, const RunTime& time, int clock_mhz);
+// Returns femtojoules of a cell-step.
+std::int64_t per_cell_step(const Question& question, std::int64_t steps, double picojoules);
 
 }  // namespace voxmelt::hwmodel::explore

@@ -267,6 +267,31 @@ def on_memory(report, parts, hw, tiles, streams, cycles):
     return by_columns(report, parts, content, hw, tiles, streams, (lit, fallen), lag, interval)
 
 
+def token_energy(report, parts, stage):
+    """Picojoules of one token in a stage, by Horowitz: 0.1 for 32 bits added, 3.1 for 32 x 32 multiplied, and 10 for
+    64 bits into 8 KiB of SRAM or out of it. Larger ones take as much more as the root of their size."""
+    f, p, cost = report["family"], parts["lanes"], report["family"]["stages"][stage["name"]]
+    added = p * (cost["lut"] + stage["dividers"] * f["divider"]["lut"])
+    added += ceil(p / 8) * stage["random_blocks_per_8_lanes"] * f["random_block"]["lut"]
+    factors = [cost["multipliers"][min(i, len(cost["multipliers"]) - 1)] for i in range(stage["multipliers"])
+               ] if cost["multipliers"] else []
+    products = p * sum(3.1 * a * b / 1024 for a, b in factors)
+    moved = sum(2 * 10 / 64 * b["lanes"] * b["bits"] * (b["words"] * b["lanes"] * b["bits"] / 65536) ** .5
+                for b in stage["buffers"])
+    return added / 320 + products + moved
+
+
+def operations(report, parts, hw):
+    """Femtojoules of a cell-step, without the memory."""
+    tiles, (across, high, deep) = Tiles(report, parts, hw), report["grid"]
+    streams = [one for train in trains(report, parts, hw, tiles) for one in train]
+    of_step = sum(token_energy(report, parts, stage) for stage in working(report, parts))
+    # With the code, masks of 8 columns and one of the writer's, and a burst of each, are read and written.
+    held = [(8, high), (1, high), (ceil(high / 512), 512)] if hw["coded"] else []
+    coder = sum(2 * 10 / 64 * bits * (words * bits / 65536) ** .5 for words, bits in held)
+    return 1000 * parts["tokens"] * sum(k * of_step + coder for _, k in streams) / (across * high * deep * report["steps"])
+
+
 def pieces(width, of):
     return 1 if width <= of else 1 + ceil((width - of) / (of - 1))
 

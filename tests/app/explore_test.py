@@ -15,11 +15,12 @@ import unittest
 from math import ceil
 from pathlib import Path
 
-from explore_search import Tiles, choices_of, fixed_of, fullest, search, times
+from explore_search import Tiles, choices_of, fixed_of, fullest, operations, search, times
 from program import SMALL, voxmelt, write
 
 EVERY_TIME = 1 if "--all" in sys.argv else 7
 NAMES = ("lut", "ff", "dsp", "bram", "uram")
+AXES = (*NAMES, "clock_mhz", "femtojoules")
 
 
 class Explore(unittest.TestCase):
@@ -54,6 +55,8 @@ class Explore(unittest.TestCase):
                 free, memory = known[same]
                 self.assertEqual(free, int(row["cycles"]), hw)
                 self.assertAlmostEqual(memory, int(row["cycles_on_memory"]), delta=len(rows), msg=hw)
+                energy = int(row["femtojoules"]) - int(row["memory_femtojoules"])
+                self.assertAlmostEqual(operations(report, part, hw) / energy, 1, delta=1e-4, msg=hw)
                 self.assertAlmostEqual(cells * report["steps"] * hw["clock_mhz"] * 1e6 / memory / speed, 1, delta=1e-3)
             key = hw["lanes"], hw["cascade"], hw["substeps"], hw["fifo_depth"], hw["coded"], hw["tile"]
             if (speed > best[0] or i % every == 0) and key not in full:
@@ -109,7 +112,7 @@ class Explore(unittest.TestCase):
         fits = [row for row in rows if row["fits"] == "1"]
         speed = lambda row: int(row["cell_steps_per_second"])
         front = set()
-        for axis in (*NAMES, "clock_mhz"):
+        for axis in AXES:
             so_far = -1
             for amount in sorted({int(row[axis]) for row in fits}):
                 fastest = max(speed(row) for row in fits if int(row[axis]) == amount)
@@ -118,9 +121,11 @@ class Explore(unittest.TestCase):
                     so_far = fastest
         shown = [row for row in rows if row["on_front"] == "1"]
         for row in shown:  # on one axis at least
-            self.assertTrue(any((axis, int(row[axis]), speed(row)) in front for axis in (*NAMES, "clock_mhz")), row)
+            self.assertTrue(any((axis, int(row[axis]), speed(row)) in front for axis in AXES), row)
         for axis, amount, fastest in front:
             self.assertTrue(any(int(row[axis]) == amount and speed(row) == fastest for row in shown), (axis, amount))
+        frugal = report["frugal"]["femtojoules_per_cell_step"]["all"]
+        self.assertEqual(frugal, min(int(row["femtojoules"]) for row in fits))
         best = [row for row in fits if speed(row) == report["best"]["cell_steps_per_second"]]
         self.assertGreater(len(best), 1, "the least full of several")
         self.assertAlmostEqual(report["best"]["fullest"], min(float(row["fullest"]) for row in best), delta=1e-6)
