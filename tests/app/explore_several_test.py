@@ -91,6 +91,17 @@ class Several(unittest.TestCase):
         speeds = [int(row["cell_steps_per_second"]) for row in rows]
         self.assertGreater(speeds[0], speeds[1])
 
+    def test_the_highest_clock_is_the_one_that_is_tried(self):
+        every_clock = QUICK[:QUICK.index("hw.clock_mhz=100") - 1]
+        self.explore(self.scenes[0], *every_clock, "--sweep", "device.clock=60,100", "--out", "swept")
+        rows = self.table("swept/sweep.csv")
+        self.assertEqual([row["clock_mhz"] for row in rows], ["60", "100"])
+        for row in rows:
+            self.explore(self.scenes[0], *every_clock, "--points", 0, "--set", f"device.clock={row['device.clock']}",
+                         "--out", "alone")
+            report = json.loads((self.folder / "alone/explore.json").read_text())
+            self.assertEqual(int(row["cell_steps_per_second"]), report["best"]["cell_steps_per_second"])
+
     def test_what_differs(self):
         for name, more in (("a", []), ("b", ["--set", "device.dsp=60"])):
             self.explore(self.scenes[0], *QUICK, "--points", 0, *more, "--out", name)

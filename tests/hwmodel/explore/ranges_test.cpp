@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,30 @@ TEST(Ranges, TheBestDesignAtBothEnds) {
     EXPECT_NE(one.coefficient.name, "device.clock") << "the question has one clock";
     EXPECT_NE(one.coefficient.name, "family.stage.spread.lut") << "the paper law has no such stage";
   }
+}
+
+// Designs that take other parts are weighed by themselves: by their steps, their channels and the code.
+TEST(Ranges, EachDesignIsAsFullAsItIsAlone) {
+  Small small({});
+  small.axes.cascade = {1, 2};
+  small.axes.fifo_depth = {1, 4};
+  small.axes.coded = {0, 1};
+  const Swept swept = small.swept();
+  ASSERT_EQ(swept.points.size(), 16U);
+  const Ranges ranges = ranges_of(small.question, small.axes, swept, 0, {});
+  Device better = small.question.device, worse = better;
+  for (const Alone& one : ranges.alone) {
+    better = with_value(better, one.coefficient.name, one.coefficient.better);
+    worse = with_value(worse, one.coefficient.name, one.coefficient.worse);
+  }
+  std::set<double> seen;
+  for (std::size_t i = 0; i < swept.points.size(); ++i) {
+    const Point& p = swept.points[i];
+    EXPECT_EQ(ranges.fullest[i].better, taken_by(swept.parts[p.parts], p.hw, better).fullest) << i;
+    EXPECT_EQ(ranges.fullest[i].worse, taken_by(swept.parts[p.parts], p.hw, worse).fullest) << i;
+    seen.insert(ranges.fullest[i].worse);
+  }
+  EXPECT_EQ(seen.size(), swept.points.size()) << "no two take the same";
 }
 
 TEST(Ranges, PerhapsNothingFits) {

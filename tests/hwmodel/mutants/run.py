@@ -38,8 +38,9 @@ from overlay import ROOT, Build, Overlay, commit, misfit, run
 KEYS = {"name", "file", "before", "after", "class", "stage", "why", "boundary", "tests"}
 # What a run of verify, or a unit test of the pipeline, computes with. Nobody plants a listed fault here, and
 # the ray caster has mutants of its own elsewhere.
-FOLDERS = tuple(f"hwmodel/{folder}/" for folder in ("check", "fabric", "memory", "pipeline/model", "pipeline/time", "pipeline/check", "pipeline/report", "machine",
-                                                     "explore"))
+FOLDERS = ("hwmodel/check/", "hwmodel/explore/", "hwmodel/fabric/", "hwmodel/machine/", "hwmodel/memory/",
+           "hwmodel/pipeline/check/", "hwmodel/pipeline/model/", "hwmodel/pipeline/report/", "hwmodel/pipeline/time/",
+           "kernel/engine/parallel/")
 VERIFY = "app/voxmelt-hardware"
 BITS = ("wrong bits", "equivalent")
 LONGEST = 150  # seconds of one run
@@ -101,7 +102,7 @@ def check(mutants):
 def library_of(compiles):
     """Tells of a source in a library whether it is compiled anew when a file changes."""
     def in_library(source, file, _program):
-        ours = source.startswith(FOLDERS) or (source.startswith("hwmodel/") and source == file)
+        ours = source.startswith(FOLDERS) or source == file
         return ours and source in compiles.get(file, [source])
     return in_library
 
@@ -111,10 +112,11 @@ class Found:
 
     def __init__(self, run, code, text):
         self.run, self.code = run, code
-        kind = re.search(r"first mismatch \(([^)]*)\): (.*)", text)
+        kind = (re.search(r"first mismatch \(([^)]*)\): (.*)", text)
+                or re.search(r"first difference \((sleep)\): step \d+, phase (\w+)", text))
         self.kind = kind.group(1) if kind else ""
         self.where = kind.group(2).strip() if kind else ""
-        cell = re.search(r"^  cell \(([-\d, ]*)\)", text, re.M)
+        cell = re.search(r"^  cell \(([-\d, ]*)\)", text, re.M) or re.search(r"phase \w+: cell \(([\d, ]*)\)", text)
         self.cell = cell.group(1) if cell else ""
         self.text = text
 
