@@ -25,6 +25,7 @@ constexpr std::array kFaults{
     FaultInfo{walk_rise, "walk-rise", "walk", "a ray goes one sample farther than the slope bound allows"},
     FaultInfo{walk_margin, "walk-margin", "walk",
               "the slope bound has no margin for roundings; what is left out may be air"},
+    FaultInfo{walk_stands, "walk-stands", "walk", "a leap has no sample: the ray stays where it is"},
     FaultInfo{walk_stale_position, "walk-stale-position", "walk",
               "the position of the sample before is sampled"},
     FaultInfo{walk_passes, "walk-passes", "walk", "a sample in matter is taken for air"},

@@ -29,6 +29,7 @@ enum class Fault : std::uint8_t {
   walk_block,
   walk_rise,
   walk_margin,
+  walk_stands,
   walk_stale_position,
   walk_passes,
   // These strike the levels.

@@ -79,6 +79,7 @@ class RayFaults : public Planted {
   }
   template <class Context>
   void leaps(const Context& context, Leap leap, std::int64_t& steps) {
+    if (armed(Fault::walk_stands)) return replace("walk", context.ray.id, steps, std::int64_t{0});
     if (armed(Fault::walk_margin) && leap == Leap::through_air) return lose_margin(context, steps);
     const Fault fault = leap == Leap::to_box         ? Fault::walk_box
                         : leap == Leap::out_of_block ? Fault::walk_block

@@ -143,6 +143,20 @@ TEST(Ranges, EachDesignIsAsFullAsItIsAlone) {
   EXPECT_EQ(seen.size(), swept.points.size()) << "no two take the same";
 }
 
+// Channels of two and of four tokens are as fast, and those of four take more.
+TEST(Ranges, TheLeastFullOfEqualsIsTold) {
+  Small small({});
+  small.axes.fifo_depth = {4, 2};
+  const Swept swept = small.swept();
+  const Point &deep = swept.points.at(2), &shallow = swept.points.at(3);
+  ASSERT_EQ(deep.speed, shallow.speed);
+  ASSERT_GT(deep.taken.fullest, shallow.taken.fullest);
+  const Ranges ranges = ranges_of(small.question, small.axes, swept, best_point(swept), {});
+  ASSERT_TRUE(ranges.all.better && ranges.all.worse);
+  EXPECT_EQ(ranges.all.better->hw.fifo_depth, 2);
+  EXPECT_EQ(ranges.all.worse->hw.fifo_depth, 2);
+}
+
 TEST(Ranges, PerhapsNothingFits) {
   const std::int64_t one = Small({}).swept().points.at(0).taken.amounts[kFf];
   const Small small({"device.fill=1", "device.ff=" + std::to_string(one)});

@@ -131,6 +131,7 @@ TEST(RunEnergy, TheMemorysIsNearTheSimulation) {
       Asked asked(rule::Law::paper, memory);
       asked.axes.lanes = {lanes};
       asked.question.grid = {48, 20, 20};
+      asked.axes.overlap = {lanes == 4 ? 0 : 1};  // two trains, or one
       const Checked checked = simulated(asked);
       ASSERT_TRUE(checked.good) << checked.difference;
       const double error = checked.predicted_energy.memory / checked.energy.memory - 1;
