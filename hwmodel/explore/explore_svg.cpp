@@ -119,13 +119,19 @@ struct Panel {
           f == kEnergyFront ? "pJ a cell-step" : front_name(f));
     }
     std::string text = fmt::format("<path class='front' d='{}'/>\n{}", line, marks);
-    if (const auto& front = explored.answer.fronts[f]; !front.empty()) {
-      const Point& last = explored.swept.points[front.back()];
-      text +=
-          fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='end'>{} x {}, {} MHz</text>\n",
-                      x(amount(last)) - 8, y(giga(last)) - 8, last.hw.lanes, last.hw.cascade, last.clock_mhz);
-    }
+    const auto& front = explored.answer.fronts[f];
+    if (front.empty()) return text;
+    text += label(explored.swept.points[front.back()], -8);
+    if (f == kEnergyFront && front.size() > 1) text += label(explored.swept.points[front.front()], 18);
     return text;
+  }
+
+  // Names a design, on that side of it where there is room.
+  std::string label(const Point& p, double below) const {
+    const bool left = x(amount(p)) > kWidth / 2;
+    return fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='{}'>{} x {}, {} MHz</text>\n",
+                       x(amount(p)) + (left ? -8 : 8), y(giga(p)) + below, left ? "end" : "start", p.hw.lanes,
+                       p.hw.cascade, p.clock_mhz);
   }
 
   std::string limit(double usable) const {
