@@ -61,6 +61,9 @@ ExploreScene::ExploreScene(const ExploreCommand& command, const std::string& giv
   question_.device = hwmodel::explore::load_device(command.device, command.device_sets);
   question_.memory = find_memory(command.memory, command.memory_sets);
   question_.steps = command.steps;
+  if (question_.device.chain > 1 && command.points > 0 && command.swept.empty())
+    throw UsageError(fmt::format("error: device.chain = {}: chains are predicted alone: add --points 0",
+                                 question_.device.chain));
   scene_ = load_scene(common_);
   refuse_changes(scene_, "explore");
   keep_inputs(scene_, {{"--report", common_.report}, {"--out", command.out}});

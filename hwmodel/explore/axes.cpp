@@ -39,6 +39,10 @@ Axes usual_axes(const Question& question) {
   axes.coded = {0};
   if (question.volume != nullptr && question.memory) axes.coded = {0, 1};
   axes.tiles = {1, 2, 4, 8, 16};
+  if (question.device.chain > 1) {  // passes wait for their halos
+    axes.tiles = {question.device.chain};
+    axes.overlap = {0};
+  }
   for (int i = 1; i <= kClocks; ++i)
     if (const int mhz = question.device.clock_mhz.value * i / kClocks; mhz > 0) axes.clock_mhz.push_back(mhz);
   return axes;

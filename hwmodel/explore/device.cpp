@@ -53,7 +53,8 @@ Device load_device(const std::string& name, const std::vector<std::string>& over
   d.title = root.text("title", "");
   scene::Reader from = table_of(root, "device");
   from.knows(std::array{"family", "lut", "ff", "dsp", "bram", "uram", "lutram", "clock", "clock_range",
-                        "clock_source", "fill", "fill_range", "fill_source"});
+                        "clock_source", "fill", "fill_range", "fill_source", "chain", "link",
+                        "link_latency"});
   const std::string family = from.text("family");
   for (std::size_t r = 0; r < kResources; ++r) d.amounts[r] = from.integer(kResourceNames[r], 0, kMostUnits);
   d.lutram = from.integer("lutram", 0, kMostUnits);
@@ -62,6 +63,9 @@ Device load_device(const std::string& name, const std::vector<std::string>& over
   const auto mhz = [](double number) { return static_cast<int>(std::lround(number)); };
   d.clock_mhz = {mhz(clock.value), mhz(clock.low), mhz(clock.high), clock.source};
   d.fill = read_of_device(from, "fill", 0.01, 1, given);
+  d.chain = from.integer("chain", 1, 64, 1);
+  d.link_gbit = from.integer("link", 1, 100'000, d.link_gbit);
+  d.link_ns = from.integer("link_latency", 0, 1'000'000, d.link_ns);
   from.finish();
   read_shell(root, d);
   root.finish();

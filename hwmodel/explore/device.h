@@ -55,6 +55,9 @@ struct Device {
   std::int64_t lutram = 0;       // LUTs that can be memory
   Ranged<int> clock_mhz;         // highest clock
   Ranged<double> fill{1, 1, 1};  // share of LUTs and flip-flops that can be used
+  int chain = 1;                 // so many of them, each with a tile of the grid and a memory of its own
+  int link_gbit = 100;           // Gbit/s between two neighbours, in each direction
+  int link_ns = 1000;            // from the end of one to the end of the other
   Amounts usable() const;        // the shell takes its part first, and only `fill` of the rest can be filled
 };
 

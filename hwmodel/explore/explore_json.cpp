@@ -105,6 +105,12 @@ json contents_json(const std::vector<PartList>& parts) {
   return result;
 }
 
+json chain_json(const Device& device) {
+  return {{"devices", device.chain},
+          {"link_gigabits_per_second", device.link_gbit},
+          {"link_nanoseconds", device.link_ns}};
+}
+
 json axes_json(const Axes& axes) {
   json result;
   for (const Axis& axis : kAxes) result[std::string(axis.key)] = axes.*axis.values;
@@ -231,6 +237,7 @@ std::string json_of(const Explored& explored) {
               {"steps", q.steps},
               {"visibility_every", heat.radiates() ? heat.visibility_every : 0},
               {"device", q.device.name},
+              {"chain", chain_json(q.device)},
               {"memory", explored.memory},
               {"available", amounts_json(q.device.amounts)},
               {"shell", amounts_json(q.device.shell)},

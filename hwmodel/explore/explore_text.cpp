@@ -93,6 +93,10 @@ std::vector<std::pair<std::int64_t, std::string>> bounds_of(const Explored& expl
   return bounds;
 }
 
+std::string devices_of(const Device& device) {
+  return device.chain > 1 ? fmt::format("{} x {}", device.chain, device.name) : device.name;
+}
+
 // Names the memory with its peak: some are a part of what is sold.
 std::string memory_of(const Explored& explored) {
   if (!explored.question.memory) return explored.memory;
@@ -215,9 +219,9 @@ std::string sentence_of(const Explored& explored) {
                        explored.scene, device.name, lack_of(explored));
   const Point& p = explored.swept.points[*explored.answer.best];
   const auto bounds = bounds_of(explored);
-  std::string text =
-      fmt::format("The best of {} designs for {} on {} with {} has {}: {}; ", explored.swept.points.size(),
-                  explored.scene, device.name, memory_of(explored), design_text(p), headline_of(explored));
+  std::string text = fmt::format("The best of {} designs for {} on {} with {} has {}: {}; ",
+                                 explored.swept.points.size(), explored.scene, devices_of(device),
+                                 memory_of(explored), design_text(p), headline_of(explored));
   if (bounds.empty()) return text + "no resource alone bounds it." + ranges_sentence(explored);
   text += bounds.front().second + " bounds it";
   for (std::size_t i = 1; i < bounds.size(); ++i) text += (i == 1 ? ", then " : ", ") + bounds[i].second;
@@ -231,6 +235,10 @@ std::string text_of(const Explored& explored) {
   for (const Resource r : kEachResource) text += fmt::format(" {} {}", usable[r], unit_of(r));
   if (!device.shell_source.empty())
     text += fmt::format("\nthe shell takes its part: {}", device.shell_source);
+  if (device.chain > 1)
+    text += fmt::format(
+        "\n{} of them in a chain: each has a tile of the grid and a memory; links of {} Gbit/s and {} ns",
+        device.chain, device.link_gbit, device.link_ns);
   text +=
       fmt::format("\nmemory: {}\n{} designs of {} steps in {:.2f} s by the closed forms; {} on the front\n",
                   explored.question.memory ? explored.question.memory->title : "always answers",

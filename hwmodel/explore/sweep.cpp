@@ -10,6 +10,7 @@
 #include <memory>
 #include <tuple>
 
+#include "hwmodel/explore/chain.h"
 #include "hwmodel/explore/dram_time.h"
 #include "hwmodel/memory/energy.h"
 #include "hwmodel/memory/ratio.h"
@@ -133,6 +134,7 @@ namespace {
 
 std::vector<RunTime> times_of(const PartList& parts, const Configuration& hw, const std::vector<int>& clocks,
                               const Question& question, std::int64_t steps) {
+  if (question.device.chain > 1) return times_on_chain(parts, hw, clocks, question, steps);
   std::vector<RunTime> times(clocks.size());
   const Design design = design_of(question.parameters, question.grid, hw);
   for (const Train& train : kinds_of_trains(design, hw, question.first_step, steps, *parts.content)) {
@@ -217,6 +219,7 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
         for (const int tile : tiles_of(axes, question, hw)) {
           hw.tile = tile;
           const Design design = design_of(question.parameters, question.grid, hw);
+          if (const int chain = question.device.chain; chain > 1 && !is_for_chain(design, chain)) continue;
           const auto [known, added] = parts_of.try_emplace(design.shape.blocks(), swept.parts.size());
           if (added) {
             swept.parts.push_back(part_list(design, question.device.family));
