@@ -74,6 +74,7 @@ Row row_at(const ExploreScene& scene, const ExploreCommand& asked, const explore
   axes.clock_mhz = {axes.clock_mhz.back()};
   const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
   Row row{value, {}, {}, {}, question.memory ? question.memory->peak() : 0};
+  if (swept.points.empty()) return row;  // a chain may cut the grid too narrow for any design
   const std::optional<std::size_t> best = explore::best_point(swept);
   if (best) row.best = swept.points[*best];
   row.ends = ranges_of(question, axes, swept, best, stop_if_interrupted).all;
