@@ -115,6 +115,11 @@ int explore_one(const ExploreCommand& command) {
   explore::Axes axes = usual_axes(question);
   keep_only(axes, command.hw_sets);
   const explore::Swept swept = sweep(question, axes, SweepProgress(common.quiet));
+  if (swept.points.empty() && !axes.tile)
+    throw UsageError(
+        fmt::format("error: device.chain = {}: the grid is too narrow for so many tiles, each wider than two "
+                    "halos",
+                    question.device.chain));
   if (swept.points.empty())
     throw UsageError(
         fmt::format("error: hw.tile = {}: no lanes and steps that are tried can have such tiles: "
