@@ -59,7 +59,7 @@ measure::Plan plan_of(const BenchOptions& options) {
       if (one.supported && one.name != "reference") plan.implementations.push_back(&one);
     if (plan.implementations.empty()) plan.implementations.push_back(&run::implementations().all().front());
   } else {
-    plan.implementations.push_back(&find_implementation(options.common));
+    plan.implementations.push_back(&find_phased_implementation(options.common));
   }
   const int all = thread_count(options.common);
   if (options.common.threads > 0)

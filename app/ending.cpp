@@ -9,6 +9,7 @@
 
 #include "app/message.h"
 #include "app/options.h"
+#include "kernel/automaton/step/stepper.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/file_writer.h"
 #include "kernel/scene/scene.h"
@@ -47,6 +48,8 @@ Ending ending_of(const std::exception_ptr& thrown) {
     return {error.what(), kBadInput};
   } catch (const scene::ResourceError& error) {
     return {error.what(), kOutOfResources};
+  } catch (const step::DeviceError& error) {
+    return {std::string("error: ") + error.what(), kOutOfResources};
   } catch (const io::OutputError& error) {
     return {error.what(), error.out_of_space() ? kOutOfResources : kBadInput};
   } catch (const render::ImageError& error) {

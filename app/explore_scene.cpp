@@ -69,7 +69,7 @@ ExploreScene::ExploreScene(const ExploreCommand& command, const std::string& giv
   keep_inputs(scene_, {{"--report", common_.report}, {"--out", command.out}});
   question_.parameters = scene_.parameters;
   name_ = scene_.name;
-  fast_ = &find_implementation(common_);
+  fast_ = &find_phased_implementation(common_);
   tuning_.threads = thread_count(common_);
 }
 

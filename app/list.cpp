@@ -20,6 +20,7 @@ void list_implementations() {
   const run::Choice& chosen = run::fastest();
   for (const auto& one : run::implementations().all())
     print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
+  for (const auto& one : run::devices().all()) print("{:<12} {}\n", one.name, one.description);
   print("{:<12} {}: {}\n", "auto", chosen.implementation->name, chosen.reason);
 }
 

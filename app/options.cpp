@@ -138,6 +138,16 @@ const step::Implementation& find_implementation(const Common& common) {
   }
 }
 
+const step::Implementation& find_phased_implementation(const Common& common) {
+  const step::Implementation& found = find_implementation(common);
+  if (found.whole_steps)
+    throw UsageError(
+        fmt::format("--implementation {}: error: this command looks at single phases, and a device "
+                    "runs whole steps",
+                    common.implementation));
+  return found;
+}
+
 run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
   const step::Implementation& implementation = find_implementation(common);
   step::Tuning tuning;

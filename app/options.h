@@ -44,7 +44,9 @@ scene::Scene load_scene(const Common& common);
 void refuse_changes(const scene::Scene& scene, const char* command);
 // Adds warnings to those of the scene, which the report lists, and prints them.
 void warn(scene::Scene& scene, const Common& common, const std::vector<std::string>& warnings);
-const step::Implementation& find_implementation(const Common& common);  // throws UsageError
+// They throw UsageError. The second one is for commands that look into a step, which a device does not let.
+const step::Implementation& find_implementation(const Common& common);
+const step::Implementation& find_phased_implementation(const Common& common);
 // Makes the simulation. It moves the scene's initial state away, because a large one need not be held twice.
 run::Simulation make_simulation(scene::Scene& scene, const Common& common);
 int thread_count(const Common& common);

@@ -139,7 +139,7 @@ void print_machine(const VerifyCommand& command, const scene::Scene& scene, cons
 SoftwareRates beside_software(const VerifyCommand& command, const scene::Scene& scene,
                               const scene::Camera& camera, const run::Simulation& ahead,
                               const hwmodel::MachineReport& report, const hwmodel::MachineOptions& options) {
-  const step::Implementation& fast = find_implementation(command.common);
+  const step::Implementation& fast = find_phased_implementation(command.common);
   const std::uint32_t steps = command.steps, frames = command.picture.frames;
   const Software here = measure_software(scene, camera, setting_of(command.picture.setting), ahead, fast,
                                          steps, steps / frames);
@@ -170,7 +170,7 @@ hwmodel::MachineReport run_machine(const VerifyCommand& command, const scene::Sc
   hwmodel::MachineReport report = hwmodel::verify_machine(
       {scene.parameters,
        ahead.step_number(),
-       find_implementation(command.common),
+       find_phased_implementation(command.common),
        tuning,
        {ahead.volume(), scene.look, scene.light, scene.terrain, camera, setting_of(choice.setting)}},
       options);

@@ -188,7 +188,7 @@ int verify_pipeline(VerifyCommand command) {
   const hwmodel::VerifyOptions options = options_of(job, ahead.step_number(), dram ? &*dram : nullptr);
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
-  const step::Implementation& fast = find_implementation(command.common);
+  const step::Implementation& fast = find_phased_implementation(command.common);
   hwmodel::VerifyReport report =
       hwmodel::verify(job.scene.parameters, ahead.volume(), ahead.step_number(), fast, tuning, options);
   Verified verified{report, design, c, memory.clock_mhz};

@@ -79,7 +79,7 @@ std::string make_small(const VerifyCommand& command, const scene::Scene& scene,
   const fs::path folder = fields_folder(command.shrink);
   const std::optional<hwmodel::SmallScene> made =
       hwmodel::shrink_to_scene({folder, kSeconds, scene, overrides_of(command.common),
-                                find_implementation(command.common), options, stop_if_interrupted},
+                                find_phased_implementation(command.common), options, stop_if_interrupted},
                                report);
   if (!made) return kNotAgain;
   const hwmodel::Case& small = made->small;

@@ -61,7 +61,7 @@ std::int64_t size_channels(const VerifiedStream& stream, const Common& common, c
   if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
   if (memory || stream.parameters.pieces.fall) {
     held.emplace(run, hwmodel::design_of(stream.parameters, grid, c), stream.volume,
-                 find_implementation(common), stop_if_interrupted);
+                 find_phased_implementation(common), stop_if_interrupted);
     held->give_to(run);
   }
   const explore::Sizing sizing = explore::size_fifos(run, memory);

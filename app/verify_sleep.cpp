@@ -62,7 +62,7 @@ int verify_sleep(VerifyCommand command) {
   keep_inputs(scene, {{"--report", command.common.report}});
   end_soon_at_interrupts();
   const run::Simulation ahead = run_ahead(scene, command.common, command.from, command.steps);
-  const step::Implementation& implementation = find_implementation(command.common);
+  const step::Implementation& implementation = find_phased_implementation(command.common);
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   run::SleepAudit audit(scene.parameters, ahead.volume(), ahead.step_number(), implementation, tuning);

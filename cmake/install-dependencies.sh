@@ -5,10 +5,11 @@ set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libpng-dev libdeflate-dev libzstd-dev libxxhash-dev libfmt-dev
           libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxsimd-dev libbenchmark-dev libsystemc-dev
-          libboost-dev libjpeg-dev)
+          libboost-dev libjpeg-dev opencl-c-headers)
 if [ "$(dpkg --print-architecture)" = amd64 ]; then packages+=(libembree-dev); fi
 if [ "${1:-build}" = test ]; then
-  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 strace valgrind verilator yosys)
+  packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 strace valgrind verilator yosys
+             ocl-icd-libopencl1 pocl-opencl-icd)
 fi
 
 missing=()

@@ -1,5 +1,6 @@
 #include "kernel/run/implementations.h"
 
+#include "kernel/engine/gpu/devices.h"
 #include "kernel/engine/parallel/stepper.h"
 #include "kernel/engine/scalar/reference.h"
 
@@ -10,6 +11,15 @@ const step::Registry& implementations() {
     step::Registry registry;
     scalar::add_implementations(registry);
     parallel::add_implementations(registry);
+    return registry;
+  }();
+  return all;
+}
+
+const step::Registry& devices() {
+  static const step::Registry all = [] {
+    step::Registry registry;
+    gpu::add_implementations(registry);
     return registry;
   }();
   return all;

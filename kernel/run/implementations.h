@@ -8,4 +8,8 @@ namespace voxmelt::run {
 // Lists all that are linked, the reference first. kernel/run/trial/fastest.h finds the fastest.
 const step::Registry& implementations();
 
+// Lists the devices of this machine: gpu:0 and so on. They run whole steps, and no single phase. The first
+// call looks for their drivers, which may take a moment.
+const step::Registry& devices();
+
 }  // namespace voxmelt::run

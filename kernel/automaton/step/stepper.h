@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,6 +63,13 @@ class HostStepper : public Stepper {
   virtual AwakeTiles awake() const { return {}; }
 };
 
+// Says what a device or its driver refuses, in words for users.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Every function may throw DeviceError. Then the host's volume is the one of the last download.
 class DeviceStepper : public Stepper {
  public:
   // Copies a state and its books to the device, in place of its old contents.
@@ -93,9 +102,11 @@ struct Tuning {
 struct Implementation {
   std::string name;
   std::string description;
-  std::unique_ptr<Stepper> (*create)(const rule::Parameters& parameters, state::Grid grid,
-                                     const Tuning& tuning);
-  bool supported = true;  // this processor can run it
+  std::function<std::unique_ptr<Stepper>(const rule::Parameters& parameters, state::Grid grid,
+                                         const Tuning& tuning)>
+      create;
+  bool supported = true;     // this processor can run it
+  bool whole_steps = false;  // a device: it runs no single phase
 };
 
 // Every folder of kernel/engine/ with implementations has an add_implementations(registry). kernel/run/ calls

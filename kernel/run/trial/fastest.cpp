@@ -119,8 +119,23 @@ const Choice& fastest() {
   return choice;
 }
 
+namespace {
+
+Choice device_named(const std::string& name) {
+  const std::vector<step::Implementation>& all = devices().all();
+  if (all.empty()) throw std::invalid_argument("this machine has no device of OpenCL");
+  const step::Implementation* found = name == "gpu" ? &all.front() : devices().find(name);
+  if (found == nullptr)
+    throw std::invalid_argument("this machine has " + all.front().name +
+                                (all.size() > 1 ? " to " + all.back().name : " alone"));
+  return {found, "asked for"};
+}
+
+}  // namespace
+
 Choice chosen(const std::string& name) {
   if (name == "auto") return fastest();
+  if (name == "gpu" || name.starts_with("gpu:")) return device_named(name);
   const step::Implementation* found = implementations().find(name);
   if (found == nullptr) {
     std::string known = "auto";

@@ -21,8 +21,9 @@ struct Choice {
 
 const Choice& fastest();  // one of implementations(), decided once in a program
 
-// Returns the choice of a user: `auto`, which is fastest(), or a name. It throws std::invalid_argument if
-// this build, or this processor, does not have it: "unknown; this build has auto, reference, avx2".
+// Returns the choice of a user: `auto`, which is fastest(), or a name. `gpu` is the first device. It throws
+// std::invalid_argument if this build, or this machine, does not have it: "unknown; this build has auto,
+// reference, avx2".
 Choice chosen(const std::string& name);
 
 using Trial = std::function<std::vector<TrialTime>(const std::vector<const step::Implementation*>&)>;

@@ -1,0 +1,222 @@
+// Times whole steps on a device, and each kernel by itself: device_bench [--steps N] WORKLOAD...
+//
+// A workload is the name of a scene, in the middle of its melt, or dense:N or dense_viscous:N, N-cubed of
+// liquid with heat. Beside each stands the fastest implementation of this processor with two threads. Times
+// are those of the fastest of five rounds. Kernels are waited for one by one, so their times hold a launch
+// each.
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "kernel/automaton/state/digest.h"
+#include "kernel/engine/gpu/constants.h"
+#include "kernel/engine/gpu/open_cl.h"
+#include "kernel/engine/gpu/stepper.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+
+namespace voxmelt {
+namespace {
+
+constexpr int kRounds = 5, kDenseLead = 5;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Passes everything on to a device, and times kernels if it is told to.
+class Watched final : public gpu::Device {
+ public:
+  explicit Watched(std::unique_ptr<gpu::Device> device)
+      : device_(std::move(device)), number_(device_->allocate(sizeof(int))) {}
+
+  void watch() { watching_ = true; }
+  void wait() {
+    int nothing = 0;
+    device_->read(*number_, &nothing, sizeof nothing);
+  }
+  struct Times {
+    double seconds = 0;
+    int calls = 0;
+  };
+  const std::map<std::string, Times>& times() const { return times_; }
+
+  std::unique_ptr<gpu::Memory> allocate(std::size_t bytes) override { return device_->allocate(bytes); }
+  void write(gpu::Memory& to, const void* from, std::size_t bytes) override {
+    timed("(write)", [&] { device_->write(to, from, bytes); });
+  }
+  void read(const gpu::Memory& from, void* to, std::size_t bytes) override {
+    timed("(read)", [&] { device_->read(from, to, bytes); });
+  }
+  void clear(gpu::Memory& memory, std::size_t bytes) override {
+    timed("(clear)", [&] { device_->clear(memory, bytes); });
+  }
+  void run(gpu::Kernel kernel, int groups, std::initializer_list<gpu::Argument> arguments) override {
+    timed(gpu::kKernelNames[static_cast<std::size_t>(kernel)],
+          [&] { device_->run(kernel, groups, arguments); });
+  }
+  void flush() override { device_->flush(); }
+  int most_groups() const override { return device_->most_groups(); }
+  std::uint64_t memory() const override { return device_->memory(); }
+  std::uint64_t largest_piece() const override { return device_->largest_piece(); }
+
+ private:
+  template <class Work>
+  void timed(const char* name, const Work& work) {
+    if (!watching_) return work();
+    const double begin = now();
+    work();
+    wait();
+    Times& times = times_[name];
+    times.seconds += now() - begin;
+    ++times.calls;
+  }
+
+  std::unique_ptr<gpu::Device> device_;
+  std::unique_ptr<gpu::Memory> number_;
+  bool watching_ = false;
+  std::map<std::string, Times> times_;
+};
+
+rule::Parameters dense_parameters(rule::Law law) {
+  rule::Parameters p;
+  p.flow.law = law;
+  p.flow.paper.margin = 64;
+  p.flow.paper.alpha_liquid = 62915;
+  p.flow.paper.alpha_solid = p.flow.paper.alpha_floor = 60293;
+  p.flow.viscous.mobility = (std::uint64_t{1} << 32) / 50;
+  p.heat.enabled = true;
+  p.heat.weight_face = 2086;
+  p.material.melting_point = 60000;
+  return p;
+}
+
+// Makes liquid of any height and temperature everywhere.
+state::Volume dense_volume(int side, bool energy) {
+  state::Volume volume(state::Grid{side, side, side});
+  std::uint64_t number = 0;
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const std::uint64_t bits = state::mixed_bits(++number);
+        const state::Slot i = volume.at(x, y, z);
+        volume.amount[i] = static_cast<std::uint16_t>(rule::kOne / 2 + bits % rule::kOne);
+        if (energy) volume.energy[i] = static_cast<std::uint16_t>(1 + (bits >> 16) % (rule::kOne / 2));
+        volume.heat[i] = static_cast<std::uint16_t>((bits >> 32) % 50000);
+        volume.liquid.set(x, y, z, true);
+      }
+  return volume;
+}
+
+int number_of(const std::string& text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1)
+    throw std::invalid_argument(text + " is no whole number from 1 on");
+  return value;
+}
+
+struct Workload {
+  rule::Parameters parameters;
+  state::Volume start;
+  int lead = kDenseLead;  // steps before those that are timed
+};
+Workload workload_of(const std::string& name) {
+  for (const auto& [prefix, law] : {std::pair<std::string, rule::Law>("dense:", rule::Law::paper),
+                                    {"dense_viscous:", rule::Law::viscous}}) {
+    if (!name.starts_with(prefix)) continue;
+    const int side = number_of(name.substr(prefix.size()));
+    return {dense_parameters(law), dense_volume(side, law == rule::Law::paper)};
+  }
+  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+  scene.parameters.pieces.fall = false;  // that is the host's work
+  return {std::move(scene.parameters), std::move(scene.initial), static_cast<int>(scene.steps / 2)};
+}
+
+template <class Round>
+double fastest(int steps, const Round& round) {
+  double least = 1e9;
+  for (int k = 0; k < kRounds; ++k) {
+    const double begin = now();
+    round();
+    least = std::min(least, (now() - begin) / steps);
+  }
+  return 1e3 * least;
+}
+
+void time_workload(const gpu::OpenClDevice& found, const std::string& name, int steps) {
+  const Workload workload = workload_of(name);
+  run::Simulation host(workload.parameters, workload.start, run::implementations().widest(), {.threads = 2});
+  for (int i = 0; i < workload.lead; ++i) host.step();
+  const gpu::Shape shape(workload.start.grid);
+  const gpu::Constants constants = gpu::constants_of(workload.parameters, shape);
+  const auto device = std::make_shared<Watched>(gpu::open(found, &constants));
+  gpu::Stepper stepper(device, workload.parameters, workload.start.grid);
+  stepper.upload(host.volume(), host.ledger());
+  auto number = static_cast<std::uint32_t>(workload.lead);
+  const auto some = [&] {
+    for (int i = 0; i < steps; ++i) stepper.run_step(number++, host.irradiance());
+    device->wait();
+  };
+  some();
+  const double here = fastest(steps, some);
+  device->watch();
+  some();
+
+  // The host computes visibility as well. It is not counted.
+  double processor = 1e9;
+  for (int k = 0; k < kRounds; ++k) {
+    const state::Seconds begin = host.seconds();
+    for (int i = 0; i < std::max(1, steps / 8); ++i) host.step();
+    const double spent =
+        host.seconds().total() - host.seconds().visibility - begin.total() + begin.visibility;
+    processor = std::min(processor, 1e3 * spent / std::max(1, steps / 8));
+  }
+  const state::Grid grid = workload.start.grid;
+  std::printf("%s, %d x %d x %d: %.4f ms a step; %s with 2 threads %.3f ms (%.1f times)\n", name.c_str(),
+              grid.x, grid.y, grid.z, here, run::implementations().widest().name.c_str(), processor,
+              processor / here);
+  for (const auto& [kernel, times] : device->times())
+    std::printf("  %-16s %8.4f ms a step in %d calls\n", kernel.c_str(), 1e3 * times.seconds / steps,
+                times.calls / steps);
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace voxmelt
+
+int main(int count, char** words) {
+  using namespace voxmelt;
+  try {
+    int steps = 40;
+    std::vector<std::string> workloads;
+    for (int i = 1; i < count; ++i) {
+      const std::string word = words[i];
+      if (word == "--steps" && i + 1 < count)
+        steps = number_of(words[++i]);
+      else
+        workloads.push_back(word);
+    }
+    const std::vector<gpu::OpenClDevice>& all = gpu::open_cl_devices();
+    if (all.empty()) throw std::invalid_argument("this machine has no device of OpenCL");
+    if (workloads.empty()) workloads = {"dense:128", "goblet", "cello", "lava"};
+    std::printf("%s, %s\n", all.front().name.c_str(), all.front().driver.c_str());
+    for (const std::string& name : workloads) time_workload(all.front(), name, steps);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "device_bench: error: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,23 @@
+// The numbers of a scene, as kernels read them (program/constants.cl).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/rule/parameters.h"
+#include "kernel/engine/gpu/shape.h"
+
+namespace voxmelt::gpu {
+
+struct Constants {
+  std::vector<std::int64_t> numbers;  // in the order of program/constants.cl
+  std::vector<std::int32_t> tables;
+};
+
+Constants constants_of(const rule::Parameters& parameters, const Shape& shape);
+
+// Returns the options that make a program for these numbers alone: -D NX=64 and so on.
+std::string specialised_options(const Constants& constants);
+
+}  // namespace voxmelt::gpu

@@ -1,0 +1,12 @@
+// The whole program, in the order in which its parts build on each other.
+#include "kernel/engine/gpu/program/constants.cl"
+#include "kernel/engine/gpu/program/cells.cl"
+#include "kernel/engine/gpu/program/lists.cl"
+#include "kernel/engine/gpu/program/openings.cl"
+#include "kernel/engine/gpu/program/heat.cl"
+#include "kernel/engine/gpu/program/melt.cl"
+#include "kernel/engine/gpu/program/fall.cl"
+#include "kernel/engine/gpu/program/spread.cl"
+#include "kernel/engine/gpu/program/settle.cl"
+#include "kernel/engine/gpu/program/viscous_spread.cl"
+#include "kernel/engine/gpu/program/relax.cl"

@@ -1,0 +1,70 @@
+// The stepper keeps a state in a device's memory and runs whole steps there. The bits and the books are those
+// of the reference.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "kernel/automaton/state/ledger.h"
+#include "kernel/automaton/step/stepper.h"
+#include "kernel/engine/gpu/device.h"
+#include "kernel/engine/gpu/shape.h"
+
+namespace voxmelt::gpu {
+
+class Stepper final : public step::DeviceStepper {
+ public:
+  // The device has a program for these parameters and this grid, or one for any scene.
+  Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid);
+
+  void change_sources(const rule::Parameters& parameters) override;
+  void upload(const state::Volume& volume, const state::Ledger& ledger) override;
+  void run_step(std::uint32_t step, const step::Irradiance* irradiance) override;
+  void download_masks(state::Volume& volume) override;
+  void download(state::Volume& volume, state::Ledger& ledger) override;
+
+ private:
+  using Buffer = std::unique_ptr<Memory>;
+  struct Twice {  // a field as it is, and as it becomes
+    Buffer now, next;
+    void swap() { now.swap(next); }
+  };
+  struct Lists {  // where kernels work: each with its number of entries
+    const Memory *full, *near, *columns;
+    const Memory *full_count, *near_count, *columns_count;
+  };
+
+  Buffer allocate(std::size_t bytes);
+  void make_lists();
+  void source(std::uint32_t step);
+  void heat(std::uint32_t step, const step::Irradiance* irradiance);
+  void melt();
+  void gravity(std::uint32_t step);
+  void spread(std::uint32_t step);
+  void viscous_steps(std::uint32_t step);
+  step::Cadence count_substeps();
+  void settle(std::uint32_t step, int substep, step::Cadence cadence);
+  void relax(int stages);
+  void spread_runs(std::uint32_t step, int substep, step::Cadence cadence);
+  void turn_over();
+  void upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
+  void collect_books();
+
+  std::shared_ptr<Device> device_;
+  rule::Parameters parameters_;
+  Shape shape_;
+  int groups_;
+  std::uint64_t bytes_ = 0;  // taken on the device
+  Buffer constants_, tables_, flags_, transient_, pattern_, irradiance_;
+  Twice amount_, energy_, heat_;
+  Buffer run_, records_, leveling_, impetus_, change_;
+  Twice heads_;
+  Buffer matter_, before_, coming_;  // bricks that hold matter: now, in the other buffers, in the next state
+  Buffer full_, near_, columns_, counts_, most_, books_;
+  bool knows_light_ = false;
+  int steps_in_books_ = 0;
+  state::Ledger ledger_;
+};
+
+}  // namespace voxmelt::gpu

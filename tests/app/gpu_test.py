@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""`--implementation gpu` as a user meets it: the same bits, runs that change between processor and device, refusals.
+
+Where there is no device of OpenCL, only the refusals are tested, and the test ends with 77: skipped.
+"""
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, SMALL, voxmelt, write
+
+NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent"}
+VISCOUS = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.02')
+
+
+def with_environment(**more):
+    return os.environ | more
+
+
+def devices():
+    listed = voxmelt("list", "implementations").stdout
+    return re.findall(r"^(gpu:\d+) ", listed, re.M)
+
+
+class Refusals(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name)
+        self.scene = write(self.folder, SMALL)
+
+    def refused(self, *arguments, names, code, **more):
+        result = voxmelt(*arguments, cwd=self.folder, env=with_environment(**more))
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (code, 1), result.stderr)
+        self.assertIn(names, result.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [self.scene], "nothing is left behind")
+
+    def test_no_device(self):
+        self.assertNotIn("gpu:", voxmelt("list", "implementations", env=with_environment(**NO_DEVICES)).stdout)
+        for name in ("gpu", "gpu:0"):
+            self.refused("run", self.scene, "--implementation", name, code=2,
+                         names=f"--implementation {name}: error: this machine has no device of OpenCL", **NO_DEVICES)
+        result = voxmelt("digest", self.scene, "--implementation", "auto", env=with_environment(**NO_DEVICES))
+        self.assertEqual(result.returncode, 0, "auto takes a processor")
+
+    @unittest.skipUnless(devices(), "no device of OpenCL")
+    def test_no_such_device(self):
+        self.refused("run", self.scene, "--implementation", "gpu:77", code=2, names="error: this machine has gpu:0")
+        self.refused("run", self.scene, "--implementation", "gpux", code=2, names="unknown; this build has auto")
+
+    @unittest.skipUnless(devices(), "no device of OpenCL")
+    def test_commands_that_look_at_phases(self):
+        for words in (["verify", self.scene], ["bench", "--quick"]):
+            self.refused(*words, "--implementation", "gpu", code=2, names="a device runs whole steps")
+
+    @unittest.skipUnless(devices(), "no device of OpenCL")
+    def test_too_little_memory(self):
+        self.refused("digest", self.scene, "--implementation", "gpu", "--set", "grid.size=[200,100,200]", code=3,
+                     names="error: the scene's grid is too large for the device: it has 2 MiB", VOXMELT_DEVICE_MEMORY="2")
+        self.refused("digest", self.scene, "--implementation", "gpu", code=3,
+                     names="error: VOXMELT_DEVICE_MEMORY is much, which is no whole number", VOXMELT_DEVICE_MEMORY="much")
+
+    # Its kernels have not been compiled before, so the first step takes longer than a second.
+    @unittest.skipUnless(devices(), "no device of OpenCL")
+    def test_a_device_that_does_not_answer(self):
+        with tempfile.TemporaryDirectory() as cache:
+            self.refused("digest", self.scene, "--implementation", "gpu", code=3, names="does not answer for 1 s",
+                         VOXMELT_DEVICE_PATIENCE="1", POCL_CACHE_DIR=cache)
+
+
+@unittest.skipUnless(devices(), "no device of OpenCL")
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name)
+
+    def run_to(self, *arguments, code=0):
+        result = voxmelt("run", *arguments, "--quiet", cwd=self.folder)
+        self.assertEqual((result.returncode, result.stderr), (code, ""))
+
+    def outcome(self, name):
+        folder = self.folder / name
+        files = {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*")
+                 if p.is_file() and p.name not in ("last.vxc", "report.json")}
+        report = json.loads((folder / "report.json").read_text())
+        for who_and_how_long in ("seconds", "memory", "implementation", "implementation_reason", "threads", "visibility"):
+            del report[who_and_how_long]
+        return files, report
+
+    def test_a_run_goes_from_the_processor_to_the_device_and_back(self):
+        for law, text in (("paper", SMALL), ("viscous", VISCOUS)):
+            with self.subTest(law=law):
+                scene = write(self.folder, text, f"{law}.toml")
+                self.run_to(scene, "--out", "straight", "--steps", "9", "--implementation", "reference")
+                self.run_to(scene, "--out", "mixed", "--steps", "3", "--implementation", "reference")
+                self.run_to("--resume", "mixed", "--steps", "6", "--implementation", "gpu")
+                self.run_to("--resume", "mixed", "--steps", "9", "--implementation", "reference")
+                self.assertEqual(self.outcome("mixed"), self.outcome("straight"))
+
+    def test_a_killed_run_goes_on(self):
+        scene = write(self.folder, SMALL.replace("steps = 6", "steps = 400").replace("frame_every = 3", "frame_every = 100"))
+        self.run_to(scene, "--out", "straight")
+        words = [PROGRAM, "run", str(scene), "--out", "killed", "--implementation", "gpu", "--checkpoint-every", "20"]
+        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 300
+        while not list(self.folder.glob("killed.partial-*/checkpoints/*.vxc")):
+            self.assertTrue(process.poll() is None and time.monotonic() < deadline)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.run_to("--resume", "killed", "--implementation", "gpu")
+        self.assertEqual(self.outcome("killed"), self.outcome("straight"))
+
+
+if __name__ == "__main__":
+    del sys.argv[1:]
+    program = unittest.main(exit=False, verbosity=2)
+    sys.exit(1 if not program.result.wasSuccessful() else 0 if devices() else 77)

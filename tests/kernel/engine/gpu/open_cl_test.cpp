@@ -1,0 +1,108 @@
+// Devices of OpenCL give the bits and the books of the reference. Where a machine has no device, PoCL runs
+// the kernels on its processor; without any, these tests say so and are skipped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/automaton/state/digest.h"
+#include "kernel/engine/gpu/open_cl.h"
+#include "kernel/scene/scene.h"
+#include "tests/kernel/engine/gpu/hostile_world.h"
+#include "tests/kernel/engine/gpu/same_steps.h"
+#include "tests/rounds.h"
+
+namespace voxmelt::gpu {
+namespace {
+
+using namespace worlds;
+
+#define VOXMELT_NEEDS_A_DEVICE() \
+  if (open_cl_devices().empty()) GTEST_SKIP() << "no device of OpenCL here (Debian: pocl-opencl-icd)"
+
+// One program serves all worlds: its compiler takes seconds.
+std::shared_ptr<Device> any_scene(const Parameters&, Grid) {
+  static const std::shared_ptr<Device> device = open(open_cl_devices().front(), nullptr);
+  return device;
+}
+std::shared_ptr<Device> this_scene(const Parameters& parameters, Grid grid) {
+  const Constants constants = constants_of(parameters, Shape(grid));
+  return open(open_cl_devices().front(), &constants);
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(VOXMELT_SCENES_FOLDER))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Every scene, from its start and from the middle of its melt. A third of them is quick.
+TEST(OpenClScenes, HaveTheDigestsAndTheBooks) {
+  VOXMELT_NEEDS_A_DEVICE();
+  const int count = all_rounds() ? 60 : 4;
+  for (const std::string& name : some_of(scene_names())) {
+    const scene::Scene scene =
+        scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+    run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});
+    for (const bool from_the_middle : {false, true}) {
+      if (from_the_middle) steps(fast, static_cast<int>(scene.steps) / 3);
+      const Volume start = fast.volume();
+      run::Simulation expected(scene.parameters, start, run::implementations().widest(), {.threads = 2});
+      run::Simulation actual(scene.parameters, start, on_device(any_scene));
+      steps(expected, count);
+      steps(actual, count);
+      ASSERT_EQ(state::digest(actual.volume()), state::digest(expected.volume())) << name;
+      ASSERT_TRUE(actual.ledger() == expected.ledger()) << name << ": the books differ";
+    }
+  }
+}
+
+class OpenCl : public testing::TestWithParam<rule::Law> {};
+
+TEST_P(OpenCl, SameBitsInHostileWorlds) {
+  VOXMELT_NEEDS_A_DEVICE();
+  for (int seed = 0; seed < rounds(600); ++seed) {
+    const HostileWorld world = hostile_world(seed, GetParam());
+    if (!same_steps_on_device(world.parameters, world.start, any_scene, 6)) FAIL() << "seed " << seed;
+  }
+}
+
+TEST_P(OpenCl, SameBitsByAProgramForOneScene) {
+  VOXMELT_NEEDS_A_DEVICE();
+  for (int seed = 0; seed < rounds(3); ++seed) {
+    const HostileWorld world = hostile_world(1000 + seed, GetParam());
+    if (!same_steps_on_device(world.parameters, world.start, this_scene, 6)) FAIL() << "seed " << seed;
+  }
+}
+
+// A device that waits for a moment only counts as lost, and says so.
+TEST(OpenClDevice, ThatDoesNotAnswerIsLost) {
+  VOXMELT_NEEDS_A_DEVICE();
+  EXPECT_EXIT(
+      {
+        try {
+          const std::unique_ptr<Device> device = open(open_cl_devices().front(), nullptr, 0);
+          const std::unique_ptr<Memory> memory = device->allocate(std::size_t{1} << 28);
+          std::vector<char> all(std::size_t{1} << 28);
+          device->read(*memory, all.data(), all.size());
+        } catch (const DeviceError& error) {
+          std::fputs(error.what(), stderr);
+          std::_Exit(5);
+        }
+      },
+      testing::ExitedWithCode(5), "does not answer for 0 s");
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, OpenCl, testing::Values(rule::Law::paper, rule::Law::viscous),
+                         [](const auto& law) { return law.param == rule::Law::paper ? "paper" : "viscous"; });
+
+}  // namespace
+}  // namespace voxmelt::gpu

@@ -1,0 +1,46 @@
+// A device and the reference run side by side. After every step they must have the same state and the same
+// books.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "kernel/automaton/state/ledger_difference.h"
+#include "kernel/engine/gpu/stepper.h"
+#include "tests/kernel/engine/parallel/equal.h"
+
+namespace voxmelt::worlds {
+
+using MakeDevice = std::function<std::shared_ptr<gpu::Device>(const Parameters&, Grid)>;
+
+inline step::Implementation on_device(const MakeDevice& make) {
+  return {
+      "device", "",
+      [make](const Parameters& parameters, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
+        return std::make_unique<gpu::Stepper>(make(parameters, grid), parameters, grid);
+      }};
+}
+
+inline bool same_steps_on_device(const Parameters& parameters, const Volume& start, const MakeDevice& make,
+                                 int count) {
+  run::Simulation expected(parameters, start, implementation("reference"));
+  run::Simulation actual(parameters, start, on_device(make));
+  for (int step = 0; step < count; ++step) {
+    expected.step();
+    actual.step();
+    const std::string found = difference(expected.volume(), actual.volume());
+    if (found.empty() && expected.ledger() == actual.ledger()) continue;
+    const auto books = state::first_difference(expected.ledger(), actual.ledger());
+    ADD_FAILURE() << "step " << step << ": " << found
+                  << (books ? " " + books->term + " " + state::to_string(books->expected) + " is " +
+                                  state::to_string(books->actual)
+                            : "");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace voxmelt::worlds
