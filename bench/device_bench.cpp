@@ -31,7 +31,7 @@
 namespace voxmelt {
 namespace {
 
-constexpr int kRounds = 5, kDenseLead = 5;
+constexpr int kRounds = 5, kDenseLead = 0;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -47,6 +47,16 @@ class Watched final : public gpu::Device {
   void wait() {
     int nothing = 0;
     device_->read(*number_, &nothing, sizeof nothing);
+  }
+  // Returns how long it takes to wait for nothing.
+  double waiting() {
+    double least = 1;
+    for (int k = 0; k < 50; ++k) {
+      const double begin = now();
+      wait();
+      least = std::min(least, now() - begin);
+    }
+    return least;
   }
   struct Times {
     double seconds = 0;
@@ -146,12 +156,14 @@ Workload workload_of(const std::string& name) {
   return {std::move(scene.parameters), std::move(scene.initial), static_cast<int>(scene.steps / 2)};
 }
 
-template <class Round>
-double fastest(int steps, const Round& round) {
+// Returns the milliseconds of a step in the fastest of some rounds, each of which begins with the same state.
+template <class Begin, class Steps>
+double fastest(int steps, const Begin& begin_anew, const Steps& make_steps) {
   double least = 1e9;
   for (int k = 0; k < kRounds; ++k) {
+    begin_anew();
     const double begin = now();
-    round();
+    make_steps();
     least = std::min(least, (now() - begin) / steps);
   }
   return 1e3 * least;
@@ -159,39 +171,53 @@ double fastest(int steps, const Round& round) {
 
 void time_workload(const gpu::OpenClDevice& found, const std::string& name, int steps) {
   const Workload workload = workload_of(name);
-  run::Simulation host(workload.parameters, workload.start, run::implementations().widest(), {.threads = 2});
-  for (int i = 0; i < workload.lead; ++i) host.step();
-  const gpu::Shape shape(workload.start.grid);
-  const gpu::Constants constants = gpu::constants_of(workload.parameters, shape);
+  const step::Implementation& processor = run::implementations().widest();
+  run::Simulation lead(workload.parameters, workload.start, processor, {.threads = 2});
+  for (int i = 0; i < workload.lead; ++i) lead.step();
+  const auto first = static_cast<std::uint32_t>(workload.lead);
+
+  const gpu::Constants constants = gpu::constants_of(workload.parameters, gpu::Shape(workload.start.grid));
   const auto device = std::make_shared<Watched>(gpu::open(found, &constants));
   gpu::Stepper stepper(device, workload.parameters, workload.start.grid);
-  stepper.upload(host.volume(), host.ledger());
-  auto number = static_cast<std::uint32_t>(workload.lead);
-  const auto some = [&] {
-    for (int i = 0; i < steps; ++i) stepper.run_step(number++, host.irradiance());
+  std::uint32_t number = 0;
+  const auto upload = [&] {
+    stepper.upload(lead.volume(), lead.ledger());
+    number = first;
+    stepper.run_step(number++, lead.irradiance());
     device->wait();
   };
-  some();
-  const double here = fastest(steps, some);
+  const auto on_device = [&] {
+    for (int i = 0; i < steps; ++i) {
+      stepper.tell_irradiance({});  // visibility is not counted, nor what it sends
+      stepper.run_step(number++, lead.irradiance());
+    }
+    device->wait();
+  };
+  const double here = fastest(steps, upload, on_device);
+  upload();
   device->watch();
-  some();
+  on_device();
 
-  // The host computes visibility as well. It is not counted.
-  double processor = 1e9;
-  for (int k = 0; k < kRounds; ++k) {
-    const state::Seconds begin = host.seconds();
-    for (int i = 0; i < std::max(1, steps / 8); ++i) host.step();
-    const double spent =
-        host.seconds().total() - host.seconds().visibility - begin.total() + begin.visibility;
-    processor = std::min(processor, 1e3 * spent / std::max(1, steps / 8));
-  }
+  std::unique_ptr<run::Simulation> host;
+  const auto begin_host = [&] {
+    host = std::make_unique<run::Simulation>(workload.parameters, lead.volume(), processor,
+                                             step::Tuning{.threads = 2});
+    host->begin_at(first);
+    host->step();
+  };
+  const auto on_host = [&] {
+    for (int i = 0; i < steps; ++i) host->step();
+  };
+  double there = fastest(steps, begin_host, on_host);
+  const state::Seconds& spent = host->seconds();
+  there *= 1 - spent.visibility / spent.total();
   const state::Grid grid = workload.start.grid;
   std::printf("%s, %d x %d x %d: %.4f ms a step; %s with 2 threads %.3f ms (%.1f times)\n", name.c_str(),
-              grid.x, grid.y, grid.z, here, run::implementations().widest().name.c_str(), processor,
-              processor / here);
+              grid.x, grid.y, grid.z, here, processor.name.c_str(), there, there / here);
+  const double waiting = device->waiting();
   for (const auto& [kernel, times] : device->times())
-    std::printf("  %-16s %8.4f ms a step in %d calls\n", kernel.c_str(), 1e3 * times.seconds / steps,
-                times.calls / steps);
+    std::printf("  %-16s %8.4f ms a step in %d calls\n", kernel.c_str(),
+                1e3 * std::max(0.0, times.seconds - times.calls * waiting) / steps, times.calls / steps);
   std::fflush(stdout);
 }
 
@@ -201,7 +227,7 @@ void time_workload(const gpu::OpenClDevice& found, const std::string& name, int 
 int main(int count, char** words) {
   using namespace voxmelt;
   try {
-    int steps = 40;
+    int steps = 16;
     std::vector<std::string> workloads;
     for (int i = 1; i < count; ++i) {
       const std::string word = words[i];

@@ -167,7 +167,7 @@ void Simulation::find_irradiance() {
   }
   irradiance_capped_ += provider_->irradiance(volume_, parameters_.heat, step_number(), irradiance_);
   const state::ChangedRows* const changed = provider_->changed();
-  if (host_ != nullptr && changed != nullptr) host_->tell_irradiance(*changed);
+  if (changed != nullptr) stepper_->tell_irradiance(*changed);
 }
 
 step::Cadence Simulation::count_substeps() const {

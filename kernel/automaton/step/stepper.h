@@ -37,6 +37,10 @@ class Stepper {
   // Replaces point sources, vents and drains by those of `parameters`, from the next step on. All else in it
   // is as it was when the stepper was created, but `heat.radiation` may become true.
   virtual void change_sources(const rule::Parameters& parameters) = 0;
+
+  // Tells which irradiance is new in the step that begins. A step of visibility may go without this call.
+  // Then all of it may be new.
+  virtual void tell_irradiance(const state::ChangedRows& /*changed*/) {}
 };
 
 class HostStepper : public Stepper {
@@ -54,10 +58,6 @@ class HostStepper : public Stepper {
   // the books may be those before it, until the next phase has run.
   virtual void run(Phase phase, Moment moment, const Irradiance* irradiance, state::Volume& volume,
                    state::Ledger& ledger) = 0;
-
-  // Tells which irradiance is new in the step that begins. A step of visibility may go without this call.
-  // Then all of it may be new.
-  virtual void tell_irradiance(const state::ChangedRows& /*changed*/) {}
 
   // Returns the tiles that the next step works on. Vents, drains and new irradiance may wake more of them.
   virtual AwakeTiles awake() const { return {}; }

@@ -38,12 +38,14 @@ enum class Kernel {
   count_substeps,
   spread_runs,
   begin_relaxing,
-  relax
+  relax,
+  put_light
 };
 inline constexpr const char* kKernelNames[] = {
-    "list_bricks",    "find_matter", "vent",           "drain",       "border",         "conduct",
-    "exchange",       "copy_heat",   "find_cold",      "melt",        "gravity",        "find_patterns",
-    "apply_patterns", "settle",      "count_substeps", "spread_runs", "begin_relaxing", "relax"};
+    "list_bricks", "find_matter",    "vent",           "drain",     "border",
+    "conduct",     "exchange",       "copy_heat",      "find_cold", "melt",
+    "gravity",     "find_patterns",  "apply_patterns", "settle",    "count_substeps",
+    "spread_runs", "begin_relaxing", "relax",          "put_light"};
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 

@@ -181,8 +181,8 @@ class OpenClQueue final : public Device {
     cl_int code = CL_SUCCESS;
     program_ = Program(library().clCreateProgramWithSource(context_.get(), 1, &begin, &size, &code));
     check(code, "take the program");
-    code = library().clBuildProgram(program_.get(), 1, &device_, ("-cl-std=CL1.2 -w" + options).c_str(), nullptr,
-                                    nullptr);
+    code = library().clBuildProgram(program_.get(), 1, &device_, ("-cl-std=CL1.2 -w" + options).c_str(),
+                                    nullptr, nullptr);
     if (code == CL_SUCCESS) return;
     std::string said(4096, '\0');
     std::size_t used = 0;

@@ -16,7 +16,7 @@ struct Shape {
       : grid(size),
         row((static_cast<std::int64_t>(size.x) + 1 + 31) / 32 * 32),
         slice(row * (size.y + 1)),
-        first(slice + row),
+        first(slice + row + 32),  // the neighbour across the corner has a place, too
         cells(first + slice * (size.z + 1) + row),
         bricks{(size.x + kBrickX - 1) / kBrickX + 2, (size.y + kBrickY - 1) / kBrickY + 2,
                (size.z + kBrickZ - 1) / kBrickZ + 2} {}

@@ -100,9 +100,9 @@ Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& paramet
     for (Buffer* field : {&impetus_, &change_, &heads_.now, &heads_.next}) *field = allocate(4 * cells);
   }
   const std::size_t all = shape_.bricks.cells();
-  for (Buffer* field : {&matter_, &before_, &coming_}) *field = allocate(all);
+  for (Buffer* field : {&matter_, &coming_}) *field = allocate(all);
   for (Buffer* field : {&full_, &near_, &columns_}) *field = allocate(4 * all);
-  counts_ = allocate(3 * sizeof(std::int32_t));
+  for (Buffer* counts : {&counts_, &other_counts_}) *counts = allocate(3 * sizeof(std::int32_t));
   most_ = allocate(sizeof(std::int32_t));
   books_ = allocate(sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
 }
@@ -116,6 +116,8 @@ Stepper::Buffer Stepper::allocate(std::size_t bytes) {
                       " MiB in one piece");
   return device_->allocate(bytes);
 }
+
+void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = changed; }
 
 void Stepper::change_sources(const rule::Parameters& parameters) { parameters_ = parameters; }
 
@@ -132,13 +134,14 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   both(energy_, state.energy);
   both(heat_, state.heat);
   device_->clear(*books_, sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
-  for (Buffer* bricks : {&matter_, &before_, &coming_}) device_->clear(**bricks, shape_.bricks.cells());
+  for (Buffer* bricks : {&matter_, &coming_}) device_->clear(**bricks, shape_.bricks.cells());
   if (pattern_) device_->clear(*pattern_, static_cast<std::size_t>(shape_.cells));
   device_->run(Kernel::find_matter, groups_,
                {constants_.get(), flags_.get(), amount_.now.get(), matter_.get()});
   ledger_ = ledger;
   steps_in_books_ = 0;
   knows_light_ = false;
+  new_light_.reset();
 }
 
 void Stepper::download_masks(state::Volume& volume) {
@@ -209,10 +212,10 @@ void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
 
 // Lists the bricks that hold matter, those that it may reach, and the columns.
 void Stepper::make_lists() {
-  device_->clear(*counts_, 3 * sizeof(std::int32_t));
+  counts_.swap(other_counts_);
   device_->run(Kernel::list_bricks, groups_,
-               {constants_.get(), matter_.get(), before_.get(), full_.get(), near_.get(), columns_.get(),
-                counts_.get()});
+               {constants_.get(), matter_.get(), coming_.get(), full_.get(), near_.get(), columns_.get(),
+                counts_.get(), other_counts_.get()});
 }
 
 void Stepper::source(std::uint32_t step) {
@@ -259,12 +262,30 @@ void Stepper::source(std::uint32_t step) {
   }
 }
 
+// Sends the words of 64 cells that are new, or all of it if nobody says which.
 void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance) {
   if (irradiance == nullptr || (knows_light_ && !parameters_.heat.is_visibility_step(step))) return;
-  const std::vector<std::uint16_t> numbers = packed(*irradiance, shape_);
-  if (!irradiance_) irradiance_ = allocate(2 * numbers.size());
-  device_->write(*irradiance_, numbers.data(), 2 * numbers.size());
-  knows_light_ = true;
+  const std::optional<state::ChangedRows> told = std::exchange(new_light_, {});
+  if (!knows_light_ || !told) {
+    const std::vector<std::uint16_t> numbers = packed(*irradiance, shape_);
+    if (!irradiance_) irradiance_ = allocate(2 * numbers.size());
+    device_->write(*irradiance_, numbers.data(), 2 * numbers.size());
+    knows_light_ = true;
+    return;
+  }
+  const PackedWords words = packed_words(*irradiance, *told, shape_);
+  if (words.places.empty()) return;
+  const std::size_t count = words.places.size();
+  if (count > light_room_) {
+    light_room_ = 2 * count;
+    light_places_ = device_->allocate(4 * light_room_);
+    light_words_ = device_->allocate(2 * kWordCells * light_room_);
+  }
+  device_->write(*light_places_, words.places.data(), 4 * count);
+  device_->write(*light_words_, words.numbers.data(), 2 * words.numbers.size());
+  device_->run(Kernel::put_light, groups_,
+               {constants_.get(), light_places_.get(), light_words_.get(), irradiance_.get(),
+                as_int(static_cast<std::int64_t>(count))});
 }
 
 // The heats go from one memory to the other, pass by pass. In the end they are where they were: what no
@@ -312,7 +333,6 @@ void Stepper::gravity(std::uint32_t step) {
 }
 
 void Stepper::spread(std::uint32_t step) {
-  device_->clear(*coming_, shape_.bricks.cells());
   device_->run(Kernel::find_patterns, groups_,
                {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(),
                 heat_.now.get(), transient_.get(), pattern_.get(), near_.get(), counts_.get(), as_int(step)});
@@ -323,13 +343,11 @@ void Stepper::spread(std::uint32_t step) {
   turn_over();
 }
 
-// The next state becomes the present one. The bricks that held matter before are the ones in which the other
-// memories still hold something.
+// The next state becomes the present one.
 void Stepper::turn_over() {
   amount_.swap();
   energy_.swap();
   heat_.swap();
-  before_.swap(matter_);
   matter_.swap(coming_);
 }
 
@@ -341,8 +359,8 @@ step::Cadence Stepper::count_substeps() {
   make_lists();
   device_->write(*most_, &one, sizeof one);
   device_->run(Kernel::count_substeps, groups_,
-               {constants_.get(), flags_.get(), amount_.now.get(), heat_.now.get(), columns_.get(),
-                counts_.get(), most_.get()});
+               {constants_.get(), flags_.get(), amount_.now.get(), heat_.now.get(), matter_.get(),
+                columns_.get(), counts_.get(), most_.get()});
   device_->read(*most_, &most, sizeof most);
   const int substeps = law.counts_substeps() ? std::min<int>(most, law.substeps_max) : law.substeps;
   return {substeps, rule::stages_for((std::int64_t{most} + substeps - 1) / substeps, law.stages_max)};
@@ -376,7 +394,6 @@ void Stepper::relax(int stages) {
 void Stepper::spread_runs(std::uint32_t step, int substep, step::Cadence cadence) {
   const std::int32_t dither =
       (rule::dither(step) + rule::dither(static_cast<std::uint32_t>(substep))) & 0xFFFF;
-  device_->clear(*coming_, shape_.bricks.cells());
   device_->run(Kernel::spread_runs, groups_,
                {constants_.get(),   tables_.get(),    flags_.get(),     amount_.now.get(), heat_.now.get(),
                 amount_.next.get(), heat_.next.get(), transient_.get(), run_.get(),        records_.get(),

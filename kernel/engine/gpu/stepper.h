@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
+#include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/gpu/device.h"
@@ -19,6 +21,7 @@ class Stepper final : public step::DeviceStepper {
   Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid);
 
   void change_sources(const rule::Parameters& parameters) override;
+  void tell_irradiance(const state::ChangedRows& changed) override;
   void upload(const state::Volume& volume, const state::Ledger& ledger) override;
   void run_step(std::uint32_t step, const step::Irradiance* irradiance) override;
   void download_masks(state::Volume& volume) override;
@@ -29,10 +32,6 @@ class Stepper final : public step::DeviceStepper {
   struct Twice {  // a field as it is, and as it becomes
     Buffer now, next;
     void swap() { now.swap(next); }
-  };
-  struct Lists {  // where kernels work: each with its number of entries
-    const Memory *full, *near, *columns;
-    const Memory *full_count, *near_count, *columns_count;
   };
 
   Buffer allocate(std::size_t bytes);
@@ -60,9 +59,12 @@ class Stepper final : public step::DeviceStepper {
   Twice amount_, energy_, heat_;
   Buffer run_, records_, leveling_, impetus_, change_;
   Twice heads_;
-  Buffer matter_, before_, coming_;  // bricks that hold matter: now, in the other buffers, in the next state
-  Buffer full_, near_, columns_, counts_, most_, books_;
-  bool knows_light_ = false;
+  Buffer matter_, coming_;  // bricks that hold matter, and those that will
+  Buffer full_, near_, columns_, counts_, other_counts_, most_, books_;
+  bool knows_light_ = false;  // the device has the irradiance of the last step of visibility
+  std::optional<state::ChangedRows> new_light_;  // what is new in it, if that was told
+  Buffer light_places_, light_words_;
+  std::size_t light_room_ = 0;  // words
   int steps_in_books_ = 0;
   state::Ledger ledger_;
 };

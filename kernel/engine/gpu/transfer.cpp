@@ -1,5 +1,6 @@
 #include "kernel/engine/gpu/transfer.h"
 
+#include <bit>
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -65,6 +66,19 @@ std::vector<std::uint16_t> packed(const step::Irradiance& irradiance, const Shap
   for_each_row(shape, [&](int y, int z, std::size_t at) {
     std::copy_n(irradiance.row(y, z), shape.grid.x, to.begin() + static_cast<std::ptrdiff_t>(at));
   });
+  return to;
+}
+
+PackedWords packed_words(const step::Irradiance& irradiance, const state::ChangedRows& rows,
+                         const Shape& shape) {
+  PackedWords to;
+  for (const state::ChangedRow& row : rows)
+    for (std::uint64_t words = row.words; words != 0; words &= words - 1) {
+      const int x = kWordCells * std::countr_zero(words);
+      to.places.push_back(static_cast<std::int32_t>(shape.at(x, row.y, row.z)));
+      const std::uint16_t* const from = irradiance.row(row.y, row.z) + x;
+      to.numbers.insert(to.numbers.end(), from, from + kWordCells);
+    }
   return to;
 }
 

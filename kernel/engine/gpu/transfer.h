@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/volume.h"
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/gpu/shape.h"
@@ -18,6 +19,15 @@ struct Packed {
 
 Packed packed(const state::Volume& volume, const Shape& shape);
 std::vector<std::uint16_t> packed(const step::Irradiance& irradiance, const Shape& shape);
+
+// Words of 64 cells along x, each with the place of its first cell.
+inline constexpr int kWordCells = 64;
+struct PackedWords {
+  std::vector<std::int32_t> places;
+  std::vector<std::uint16_t> numbers;  // kWordCells for each
+};
+PackedWords packed_words(const step::Irradiance& irradiance, const state::ChangedRows& rows,
+                         const Shape& shape);
 
 // They write into a volume of the same grid. Energy and heat may be missing; then they stay.
 void unpack(const Packed& packed, const Shape& shape, state::Volume& volume);

@@ -95,9 +95,8 @@ KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushor
     for (int y = 0; y + 1 < NY; ++y) {
       int by = (y + 1) / BRICK_Y;
       if (y == 0 || (y + 1) % BRICK_Y == 0) {
-        // Nothing moves in a brick without matter, if none falls into it from above or climbs into it.
-        int here = brick + by * BRICKS_X;
-        if (low.a <= ONE && !LOOK(matter[here]) && !LOOK(matter[here + BRICKS_X])) {
+        // Nothing moves in a brick without matter, if none climbs into it. Its uppermost cell is looked at next.
+        if (low.a <= ONE && !LOOK(matter[brick + by * BRICKS_X])) {
           put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
           y = by * BRICK_Y + BRICK_Y - 1;
           if (y + 1 >= NY) y = NY - 1;

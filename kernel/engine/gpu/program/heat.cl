@@ -134,6 +134,15 @@ KERNEL(exchange)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLO
   }
 }
 
+// Puts new words of 64 cells into the irradiance. The cells beyond a row are its border, which nobody reads.
+KERNEL(put_light)(CONSTANTS, GLOBAL const int* places, GLOBAL const ushort* words, GLOBAL ushort* irradiance,
+                  int count) {
+  for (int n = GROUP * LANES + LANE; n < 64 * count; n += GROUPS * LANES) {
+    int i = places[n / 64] + n % 64, x = (i - FIRST) % ROW;
+    if (x >= n % 64) irradiance[i] = words[n];
+  }
+}
+
 // Copies the heats of listed bricks, after an even number of passes.
 KERNEL(copy_heat)(CONSTANTS, GLOBAL const ushort* from, GLOBAL ushort* to, GLOBAL const int* list,
                   GLOBAL const int* counts) {

@@ -150,6 +150,10 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
     for (int y = 0; y < NY; ++y) {
+      if (y % BRICK_Y == 0 && !LOOK(matter[brick_of(P, x, y, z)])) {
+        y += BRICK_Y - 1;  // no run begins without matter
+        continue;
+      }
       int i = cell_at(P, x, y, z);
       if (is_blocked(F[i]) || !is_blocked(F[i - ROW])) continue;
       Run one = gathered(P, F, A, H, i);
@@ -190,10 +194,15 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
 
 // Finds the most sub-steps that a run needs.
 KERNEL(count_substeps)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL const ushort* H,
-                       GLOBAL const int* columns, GLOBAL const int* counts, GLOBAL int* most) {
+                       GLOBAL const uchar* matter, GLOBAL const int* columns, GLOBAL const int* counts,
+                       GLOBAL int* most) {
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
     for (int y = 0; y < NY; ++y) {
+      if (y % BRICK_Y == 0 && !LOOK(matter[brick_of(P, x, y, z)])) {
+        y += BRICK_Y - 1;
+        continue;
+      }
       int i = cell_at(P, x, y, z);
       if (!is_liquid(F[i], A[i]) || !is_blocked(F[i - ROW])) continue;
       Run one = gathered(P, F, A, H, i);

@@ -22,8 +22,8 @@ FN int is_open(CONSTANTS, GLOBAL const uchar* F, int i, int d) {
   return d < 4 || !(is_blocked(F[i + dx]) && is_blocked(F[i + dz]));
 }
 
-// Finds the directions that each liquid cell gives to. It visits all bricks that spread does, and so those that held
-// matter one spread before: everywhere else the patterns are 0.
+// Finds the directions that each liquid cell gives to. It visits all bricks that spread does.
+// Everywhere else the patterns are 0.
 KERNEL(find_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                       GLOBAL const ushort* E, GLOBAL const ushort* H, GLOBAL const uchar* T, GLOBAL uchar* pattern,
                       GLOBAL const int* list, GLOBAL const int* counts, uint step) {

@@ -75,6 +75,14 @@ TEST_P(OpenCl, SameBitsInHostileWorlds) {
   }
 }
 
+TEST_P(OpenCl, SameBitsWhereMostBricksAreEmpty) {
+  VOXMELT_NEEDS_A_DEVICE();
+  for (int seed = 0; seed < rounds(30); ++seed) {
+    const HostileWorld world = sparse_world(seed, GetParam());
+    if (!same_steps_on_device(world.parameters, world.start, any_scene, 14)) FAIL() << "seed " << seed;
+  }
+}
+
 TEST_P(OpenCl, SameBitsByAProgramForOneScene) {
   VOXMELT_NEEDS_A_DEVICE();
   for (int seed = 0; seed < rounds(3); ++seed) {

@@ -25,6 +25,14 @@ TEST_P(Kernels, SameBitsInHostileWorlds) {
   }
 }
 
+TEST_P(Kernels, SameBitsWhereMostBricksAreEmpty) {
+  for (int seed = 0; seed < rounds(150); ++seed) {
+    const HostileWorld world = sparse_world(seed, GetParam());
+    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 14))
+      FAIL() << "seed " << seed;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, Kernels, testing::Values(rule::Law::paper, rule::Law::viscous),
                          [](const auto& law) { return law.param == rule::Law::paper ? "paper" : "viscous"; });
 
