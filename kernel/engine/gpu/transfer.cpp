@@ -1,7 +1,7 @@
 #include "kernel/engine/gpu/transfer.h"
 
-#include <bit>
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <span>
 
