@@ -1,9 +1,9 @@
 // Times whole steps on a device, and each kernel by itself: device_bench [--steps N] WORKLOAD...
 //
 // A workload is the name of a scene, in the middle of its melt, or dense:N or dense_viscous:N, N-cubed of
-// liquid with heat. Beside each stands the fastest implementation of this processor with two threads. Times
-// are those of the fastest of five rounds. Kernels are waited for one by one, so their times hold a launch
-// each.
+// liquid with heat. Beside each stands AVX2, or else the widest implementation here, with two threads. Times
+// are those of the fastest of five rounds from the same state, without visibility. Kernels are waited for one
+// by one, so their times hold a launch each.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -171,7 +171,9 @@ double fastest(int steps, const Begin& begin_anew, const Steps& make_steps) {
 
 void time_workload(const gpu::OpenClDevice& found, const std::string& name, int steps) {
   const Workload workload = workload_of(name);
-  const step::Implementation& processor = run::implementations().widest();
+  const step::Implementation* const avx2 = run::implementations().find("avx2");
+  const step::Implementation& processor =
+      avx2 != nullptr && avx2->supported ? *avx2 : run::implementations().widest();
   run::Simulation lead(workload.parameters, workload.start, processor, {.threads = 2});
   for (int i = 0; i < workload.lead; ++i) lead.step();
   const auto first = static_cast<std::uint32_t>(workload.lead);

@@ -135,7 +135,8 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   both(heat_, state.heat);
   device_->clear(*books_, sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
   for (Buffer* bricks : {&matter_, &coming_}) device_->clear(**bricks, shape_.bricks.cells());
-  if (pattern_) device_->clear(*pattern_, static_cast<std::size_t>(shape_.cells));
+  for (Buffer* bytes : {&pattern_, &transient_})
+    if (*bytes) device_->clear(**bytes, static_cast<std::size_t>(shape_.cells));
   device_->run(Kernel::find_matter, groups_,
                {constants_.get(), flags_.get(), amount_.now.get(), matter_.get()});
   ledger_ = ledger;
@@ -177,7 +178,9 @@ void Stepper::collect_books() {
 
 void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
   const step::Cadence cadence = count_substeps();
-  if (transient_) device_->clear(*transient_, static_cast<std::size_t>(shape_.cells));
+  // Under the paper's law, spread clears what melt found.
+  if (transient_ && !is_paper(parameters_))
+    device_->clear(*transient_, static_cast<std::size_t>(shape_.cells));
   source(step);
   make_lists();
   if (parameters_.open_border)
@@ -338,8 +341,8 @@ void Stepper::spread(std::uint32_t step) {
                 heat_.now.get(), transient_.get(), pattern_.get(), near_.get(), counts_.get(), as_int(step)});
   device_->run(Kernel::apply_patterns, groups_,
                {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(),
-                heat_.now.get(), amount_.next.get(), energy_.next.get(), heat_.next.get(), pattern_.get(),
-                coming_.get(), books_.get(), near_.get(), counts_.get(), rule::dither(step)});
+                heat_.now.get(), amount_.next.get(), energy_.next.get(), heat_.next.get(), transient_.get(),
+                pattern_.get(), coming_.get(), books_.get(), near_.get(), counts_.get(), rule::dither(step)});
   turn_over();
 }
 

@@ -4,7 +4,7 @@
 //   F  a byte per cell: bit 0 solid, bit 1 inert, bits 4..7 the material. Liquid is what is not blocked and holds
 //      an amount.
 //   A, E, H  amount, energy, heat. E and H are 0 where a cell holds nothing.
-//   T  what melt found in this step: MELTED and FROZEN cells, and those that are SET. 0 elsewhere.
+//   T  what melt found in this step: MELTED and FROZEN cells, and those that are SET. 0 elsewhere, and before melt.
 #define ONE 4096
 #define AMOUNT_MAX 65535
 #define HEAT_MAX 65535

@@ -90,23 +90,19 @@ KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushor
   FallBooks sums = {0, 0, 0};
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
-    int bottom = cell_at(P, x, 0, z), brick = brick_of(P, x, 0, z);
-    Held low = held(P, F, A, E, H, bottom);
-    for (int y = 0; y + 1 < NY; ++y) {
+    int bottom = cell_at(P, x, 0, z), brick = brick_of(P, x, 0, z), y = 0;
+    Held low = held(P, F, A, E, H, bottom), high = held(P, F, A, E, H, bottom + ROW);
+    while (y + 1 < NY) {
       int by = (y + 1) / BRICK_Y;
-      if (y == 0 || (y + 1) % BRICK_Y == 0) {
-        // Nothing moves in a brick without matter, if none climbs into it. Its uppermost cell is looked at next.
-        if (low.a <= ONE && !LOOK(matter[brick + by * BRICKS_X])) {
-          put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
-          y = by * BRICK_Y + BRICK_Y - 1;
-          if (y + 1 >= NY) y = NY - 1;
-          low = held(P, F, A, E, H, bottom + y * ROW);
-          --y;
-          if (y + 2 >= NY) break;
-          continue;
-        }
+      // Nothing moves in a brick without matter, if none climbs into it. Its uppermost cell is looked at next.
+      if ((y == 0 || (y + 1) % BRICK_Y == 0) && low.a <= ONE && !LOOK(matter[brick + by * BRICKS_X])) {
+        put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
+        y = imin(by * BRICK_Y + BRICK_Y - 1, NY - 1);
+        low = held(P, F, A, E, H, bottom + y * ROW);
+        high = held(P, F, A, E, H, low.i + ROW);
+        continue;
       }
-      Held high = held(P, F, A, E, H, low.i + ROW);
+      Held next = held(P, F, A, E, H, high.i + ROW);  // before its turn, as it takes long to come
       if (low.a + high.a > 0 && !low.blocked && !high.blocked) {
         if (high.a > 0 && low.a < ONE && (PAPER || run[high.i] == 0)) {
           int flow = imin(ready_to_fall(P, F, T, high.i, high.a, low.a), ONE - low.a);
@@ -118,8 +114,10 @@ KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushor
       }
       put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
       low = high;
+      high = next;
+      ++y;
     }
-    put_back(P, low, brick + (NY - 1) / BRICK_Y * BRICKS_X, A, E, H, matter);
+    put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
   }
   if (PAPER) {
     book(books, scratch, ENERGY_ACCELERATED, sums.accelerated);

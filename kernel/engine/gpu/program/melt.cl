@@ -1,4 +1,6 @@
 // Phase `melt` (docs/automaton.md, section 7). Cold cells are found before any mask changes.
+#define HAS_TRANSIENTS (HEAT && (FREEZING_POINT > 0 || (PAPER && SEES_SIDES)))
+
 KERNEL(find_cold)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL const ushort* H, GLOBAL uchar* T,
                   GLOBAL const int* list, GLOBAL const int* counts) {
   FOR_LISTED_CELLS(list, counts[FULL]) {

@@ -77,7 +77,7 @@ FN Gift given(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, int i,
 // bricks that hold matter are told in `matter`.
 KERNEL(apply_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                        GLOBAL const ushort* E, GLOBAL const ushort* H, GLOBAL ushort* new_A, GLOBAL ushort* new_E,
-                       GLOBAL ushort* new_H, GLOBAL const uchar* pattern, GLOBAL uchar* matter, GLOBAL long* books,
+                       GLOBAL ushort* new_H, GLOBAL uchar* T, GLOBAL const uchar* pattern, GLOBAL uchar* matter, GLOBAL long* books,
                        GLOBAL const int* list, GLOBAL const int* counts, int dither) {
   SCRATCH
   long dissipated = 0, capped = 0, rounded = 0;
@@ -116,6 +116,7 @@ KERNEL(apply_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* 
     }
     new_A[i] = (ushort)a;
     new_E[i] = (ushort)e;
+    if (HAS_TRANSIENTS) T[i] = 0;
     if (HEAT) new_H[i] = (ushort)h;
     if (is_matter(f, a) && !LOOK(matter[brick])) RAISE(matter[brick]);
   }
