@@ -100,7 +100,7 @@ def main():
     chance = random.Random(seed)
     print(f"seed {seed}")
     known = subprocess.run([PROGRAM, "list", "implementations"], capture_output=True, text=True, check=True).stdout
-    implementations = [line.split()[0] for line in known.splitlines() if "not on this" not in line]
+    implementations = [line.split()[0] for line in known.splitlines() if "not on this" not in line and not line.startswith("gpu:")]
     kills = 0
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)

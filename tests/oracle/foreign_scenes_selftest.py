@@ -96,7 +96,7 @@ def try_one(name, programs, implementation, folder):
 def main():
     programs = {name: Path(word).resolve() for name, word in zip(("voxmelt", "oracle"), sys.argv[1:3])}
     listed = run(programs["voxmelt"], "list", "implementations")[1].splitlines()
-    implementation = [line for line in listed if "not on this processor" not in line][-1].split()[0]
+    implementation = [line for line in listed if "not on this processor" not in line and not line.startswith("gpu:")][-1].split()[0]
     with tempfile.TemporaryDirectory() as folder:
         os.environ["TMPDIR"] = folder
         for n, name in enumerate(PLANTED):

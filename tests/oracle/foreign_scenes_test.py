@@ -52,10 +52,12 @@ def output(*command):
 
 
 def implementations(voxmelt):
-    """Names of those that this processor can run, or of those asked for."""
+    """Names of those that this processor can run, or of those asked for. A device builds a program for each scene, so
+    it runs only if asked for."""
     if "--only" in sys.argv:
         return sys.argv[sys.argv.index("--only") + 1].split(",")
-    return [line.split()[0] for line in output(voxmelt, "list", "implementations") if "not on this processor" not in line]
+    return [line.split()[0] for line in output(voxmelt, "list", "implementations")
+            if "not on this processor" not in line and not line.startswith("gpu:")]
 
 
 def of_oracle(oracle, start, steps, fields):

@@ -3,9 +3,9 @@ import subprocess
 
 
 def on_this_processor(voxmelt):
-    """All of them but auto, which is one of the others."""
+    """All of them but auto, which is one of the others, and devices."""
     lines = subprocess.run([voxmelt, "list", "implementations"], check=True, capture_output=True, text=True).stdout.splitlines()
-    return [name for name in (line.split()[0] for line in lines if "not on this processor" not in line) if name != "auto"]
+    return [name for name in (line.split()[0] for line in lines if "not on this processor" not in line) if name != "auto" and not name.startswith("gpu:")]
 
 
 def of_hand_tests(voxmelt, words):
