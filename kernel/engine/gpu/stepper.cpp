@@ -135,8 +135,8 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   both(heat_, state.heat);
   device_->clear(*books_, sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
   for (Buffer* bricks : {&matter_, &coming_}) device_->clear(**bricks, shape_.bricks.cells());
-  for (Buffer* bytes : {&pattern_, &transient_})
-    if (*bytes) device_->clear(**bytes, static_cast<std::size_t>(shape_.cells));
+  for (Buffer* field : {&pattern_, &transient_})
+    if (*field) device_->clear(**field, static_cast<std::size_t>(shape_.cells));
   device_->run(Kernel::find_matter, groups_,
                {constants_.get(), flags_.get(), amount_.now.get(), matter_.get()});
   ledger_ = ledger;
