@@ -1,9 +1,9 @@
-// Times whole steps on a device, and each kernel by itself: device_bench [--steps N] WORKLOAD...
+// Times whole steps on a device, and each kernel by itself: device_bench [--steps N] [--alone] WORKLOAD...
 //
 // A workload is the name of a scene, in the middle of its melt, or dense:N or dense_viscous:N, N-cubed of
 // liquid with heat. Beside each stands AVX2, or else the widest implementation here, with two threads. Times
 // are those of the fastest of five rounds from the same state, without visibility. Kernels are waited for one
-// by one, so their times hold a launch each.
+// by one, so their times hold a launch each. With --alone the processor has nothing to do.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -169,7 +169,24 @@ double fastest(int steps, const Begin& begin_anew, const Steps& make_steps) {
   return 1e3 * least;
 }
 
-void time_workload(const gpu::OpenClDevice& found, const std::string& name, int steps) {
+// Returns the same of a processor, less what visibility takes.
+double on_processor(const Workload& workload, const state::Volume& start,
+                    const step::Implementation& processor, int steps) {
+  std::unique_ptr<run::Simulation> host;
+  const auto begin = [&] {
+    host =
+        std::make_unique<run::Simulation>(workload.parameters, start, processor, step::Tuning{.threads = 2});
+    host->begin_at(static_cast<std::uint32_t>(workload.lead));
+    host->step();
+  };
+  const auto make_steps = [&] {
+    for (int i = 0; i < steps; ++i) host->step();
+  };
+  const double all = fastest(steps, begin, make_steps);
+  return all * (1 - host->seconds().visibility / host->seconds().total());
+}
+
+void time_workload(const gpu::OpenClDevice& found, const std::string& name, int steps, bool alone) {
   const Workload workload = workload_of(name);
   const step::Implementation* const avx2 = run::implementations().find("avx2");
   const step::Implementation& processor =
@@ -200,22 +217,13 @@ void time_workload(const gpu::OpenClDevice& found, const std::string& name, int 
   device->watch();
   on_device();
 
-  std::unique_ptr<run::Simulation> host;
-  const auto begin_host = [&] {
-    host = std::make_unique<run::Simulation>(workload.parameters, lead.volume(), processor,
-                                             step::Tuning{.threads = 2});
-    host->begin_at(first);
-    host->step();
-  };
-  const auto on_host = [&] {
-    for (int i = 0; i < steps; ++i) host->step();
-  };
-  double there = fastest(steps, begin_host, on_host);
-  const state::Seconds& spent = host->seconds();
-  there *= 1 - spent.visibility / spent.total();
   const state::Grid grid = workload.start.grid;
-  std::printf("%s, %d x %d x %d: %.4f ms a step; %s with 2 threads %.3f ms (%.1f times)\n", name.c_str(),
-              grid.x, grid.y, grid.z, here, processor.name.c_str(), there, there / here);
+  std::printf("%s, %d x %d x %d: %.4f ms a step", name.c_str(), grid.x, grid.y, grid.z, here);
+  if (!alone) {
+    const double there = on_processor(workload, lead.volume(), processor, steps);
+    std::printf("; %s with 2 threads %.3f ms (%.1f times)", processor.name.c_str(), there, there / here);
+  }
+  std::printf("\n");
   const double waiting = device->waiting();
   for (const auto& [kernel, times] : device->times())
     std::printf("  %-16s %8.4f ms a step in %d calls\n", kernel.c_str(),
@@ -230,11 +238,14 @@ int main(int count, char** words) {
   using namespace voxmelt;
   try {
     int steps = 16;
+    bool alone = false;
     std::vector<std::string> workloads;
     for (int i = 1; i < count; ++i) {
       const std::string word = words[i];
       if (word == "--steps" && i + 1 < count)
         steps = number_of(words[++i]);
+      else if (word == "--alone")
+        alone = true;
       else
         workloads.push_back(word);
     }
@@ -242,7 +253,7 @@ int main(int count, char** words) {
     if (all.empty()) throw std::invalid_argument("this machine has no device of OpenCL");
     if (workloads.empty()) workloads = {"dense:128", "goblet", "cello", "lava"};
     std::printf("%s, %s\n", all.front().name.c_str(), all.front().driver.c_str());
-    for (const std::string& name : workloads) time_workload(all.front(), name, steps);
+    for (const std::string& name : workloads) time_workload(all.front(), name, steps, alone);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "device_bench: error: %s\n", error.what());
     return 2;
