@@ -202,7 +202,7 @@ def self_test():
         assert why_old(drawing, {**lines, "app/new": 5}, arrows) != ""
         assert why_old(drawing, lines, arrows, "no picture") != ""
         assert why_old(drawing.replace("stroke", "strike", 1), lines, arrows) != ""
-        for planted, said in {"kernel/engine/gpu": "has no purpose", "cellar": "on no floor"}.items():
+        for planted, said in {"kernel/engine/new": "has no purpose", "cellar": "on no floor"}.items():
             (root / planted).mkdir()
             (root / planted / "a.cpp").write_text("\n")
             assert any(planted in problem and said in problem for problem in survey(root)[2]), planted

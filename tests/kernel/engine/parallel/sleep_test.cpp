@@ -165,8 +165,8 @@ TEST_P(Calm, NothingChangesFarFromTilesThatAreToldToBeAwake) {
       });
     }
   }
-  EXPECT_GT(asleep, 10000);
-  EXPECT_GT(changed, 10000);
+  EXPECT_GT(asleep, rounds(30000));
+  EXPECT_GT(changed, rounds(30000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, Calm, testing::Values(rule::Law::paper, rule::Law::viscous),
