@@ -12,7 +12,7 @@ HEADERS = Path("/usr/include")
 GTEST = Path("/usr/src/googletest/googletest")
 GTEST_SOURCES = [GTEST / "src/gtest-all.cc", GTEST / "src/gtest_main.cc"]
 KERNEL = ["kernel/automaton/state", "kernel/run"] + [
-    f"kernel/engine/{folder}" for folder in ("scalar", "simd", "parallel", "cpu", "visibility")]
+    f"kernel/engine/{folder}" for folder in ("scalar", "simd", "parallel", "gpu", "cpu", "visibility")]
 INSTANCE = "_instance.cpp"  # how sources end that are compiled once for each instruction set
 # -ffp-contract as in cmake/VoxmeltTarget.cmake.
 OPTIONS = ["-std=c++20", "-ffp-contract=off", "-DVOXMELT_PLAIN_THREADS", "-pthread"]
