@@ -166,7 +166,10 @@ double most_of(const Explored& explored, std::size_t front) {
   return most;
 }
 
-double top_of(std::size_t panel) { return kHeight * static_cast<double>(panel / 2); }
+double top_of(std::size_t panel) {
+  const std::size_t row = panel / 2;
+  return kHeight * static_cast<double>(row);
+}
 
 // Cuts a long text into lines at blanks.
 std::string wrapped(const std::string& text, std::size_t most, double x, double y) {

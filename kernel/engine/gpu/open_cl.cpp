@@ -167,7 +167,7 @@ class OpenClQueue final : public Device {
     cl_int code = CL_SUCCESS;
     if (const auto* memory = std::get_if<const Memory*>(&argument)) {
       const cl_mem object_of = *memory == nullptr ? nullptr : of(**memory);
-      code = library().clSetKernelArg(object, index, sizeof object_of, &object_of);
+      code = library().clSetKernelArg(object, index, sizeof(void*), &object_of);
     } else {
       code = library().clSetKernelArg(object, index, sizeof(std::int32_t), &std::get<std::int32_t>(argument));
     }

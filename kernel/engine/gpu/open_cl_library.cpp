@@ -18,10 +18,29 @@ std::optional<OpenClLibrary> loaded() {
   void* const library = dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return {};
   OpenClLibrary all;
-  bool whole = true;
-#define VOXMELT_FIND(name) whole = find(library, #name, all.name) && whole;
-  VOXMELT_OPEN_CL_FUNCTIONS(VOXMELT_FIND)
-#undef VOXMELT_FIND
+  const bool whole = find(library, "clGetPlatformIDs", all.clGetPlatformIDs) &&
+                     find(library, "clGetDeviceIDs", all.clGetDeviceIDs) &&
+                     find(library, "clGetDeviceInfo", all.clGetDeviceInfo) &&
+                     find(library, "clCreateContext", all.clCreateContext) &&
+                     find(library, "clReleaseContext", all.clReleaseContext) &&
+                     find(library, "clCreateCommandQueue", all.clCreateCommandQueue) &&
+                     find(library, "clReleaseCommandQueue", all.clReleaseCommandQueue) &&
+                     find(library, "clCreateProgramWithSource", all.clCreateProgramWithSource) &&
+                     find(library, "clBuildProgram", all.clBuildProgram) &&
+                     find(library, "clGetProgramBuildInfo", all.clGetProgramBuildInfo) &&
+                     find(library, "clReleaseProgram", all.clReleaseProgram) &&
+                     find(library, "clCreateKernel", all.clCreateKernel) &&
+                     find(library, "clReleaseKernel", all.clReleaseKernel) &&
+                     find(library, "clSetKernelArg", all.clSetKernelArg) &&
+                     find(library, "clCreateBuffer", all.clCreateBuffer) &&
+                     find(library, "clReleaseMemObject", all.clReleaseMemObject) &&
+                     find(library, "clEnqueueWriteBuffer", all.clEnqueueWriteBuffer) &&
+                     find(library, "clEnqueueReadBuffer", all.clEnqueueReadBuffer) &&
+                     find(library, "clEnqueueFillBuffer", all.clEnqueueFillBuffer) &&
+                     find(library, "clEnqueueNDRangeKernel", all.clEnqueueNDRangeKernel) &&
+                     find(library, "clFlush", all.clFlush) &&
+                     find(library, "clGetEventInfo", all.clGetEventInfo) &&
+                     find(library, "clReleaseEvent", all.clReleaseEvent);
   if (!whole) return {};
   return all;
 }

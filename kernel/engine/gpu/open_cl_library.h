@@ -7,19 +7,30 @@
 
 namespace voxmelt::gpu {
 
-#define VOXMELT_OPEN_CL_FUNCTIONS(visit)                                                                  \
-  visit(clGetPlatformIDs) visit(clGetDeviceIDs) visit(clGetDeviceInfo) visit(clCreateContext)             \
-      visit(clReleaseContext) visit(clCreateCommandQueue) visit(clReleaseCommandQueue)                    \
-          visit(clCreateProgramWithSource) visit(clBuildProgram) visit(clGetProgramBuildInfo)             \
-              visit(clReleaseProgram) visit(clCreateKernel) visit(clReleaseKernel) visit(clSetKernelArg)  \
-                  visit(clCreateBuffer) visit(clReleaseMemObject) visit(clEnqueueWriteBuffer)             \
-                      visit(clEnqueueReadBuffer) visit(clEnqueueFillBuffer) visit(clEnqueueNDRangeKernel) \
-                          visit(clFlush) visit(clGetEventInfo) visit(clReleaseEvent)
-
 struct OpenClLibrary {
-#define VOXMELT_MEMBER(name) decltype(&::name) name = nullptr;
-  VOXMELT_OPEN_CL_FUNCTIONS(VOXMELT_MEMBER)
-#undef VOXMELT_MEMBER
+  decltype(&::clGetPlatformIDs) clGetPlatformIDs = nullptr;
+  decltype(&::clGetDeviceIDs) clGetDeviceIDs = nullptr;
+  decltype(&::clGetDeviceInfo) clGetDeviceInfo = nullptr;
+  decltype(&::clCreateContext) clCreateContext = nullptr;
+  decltype(&::clReleaseContext) clReleaseContext = nullptr;
+  decltype(&::clCreateCommandQueue) clCreateCommandQueue = nullptr;
+  decltype(&::clReleaseCommandQueue) clReleaseCommandQueue = nullptr;
+  decltype(&::clCreateProgramWithSource) clCreateProgramWithSource = nullptr;
+  decltype(&::clBuildProgram) clBuildProgram = nullptr;
+  decltype(&::clGetProgramBuildInfo) clGetProgramBuildInfo = nullptr;
+  decltype(&::clReleaseProgram) clReleaseProgram = nullptr;
+  decltype(&::clCreateKernel) clCreateKernel = nullptr;
+  decltype(&::clReleaseKernel) clReleaseKernel = nullptr;
+  decltype(&::clSetKernelArg) clSetKernelArg = nullptr;
+  decltype(&::clCreateBuffer) clCreateBuffer = nullptr;
+  decltype(&::clReleaseMemObject) clReleaseMemObject = nullptr;
+  decltype(&::clEnqueueWriteBuffer) clEnqueueWriteBuffer = nullptr;
+  decltype(&::clEnqueueReadBuffer) clEnqueueReadBuffer = nullptr;
+  decltype(&::clEnqueueFillBuffer) clEnqueueFillBuffer = nullptr;
+  decltype(&::clEnqueueNDRangeKernel) clEnqueueNDRangeKernel = nullptr;
+  decltype(&::clFlush) clFlush = nullptr;
+  decltype(&::clGetEventInfo) clGetEventInfo = nullptr;
+  decltype(&::clReleaseEvent) clReleaseEvent = nullptr;
 };
 
 // Returns null where there is no library, or one that lacks a function.

@@ -97,7 +97,7 @@ struct Unpacked<kFunction> {
     (std::index_sequence_for<T...>());
   }
 };
-#define CALL(name) &Unpacked<&name>::call
+#define CALL(name) (&Unpacked<&(name)>::call)
 constexpr Call kCalls[] = {CALL(list_bricks),    CALL(find_matter), CALL(vent),           CALL(drain),
                            CALL(border),         CALL(conduct),     CALL(exchange),       CALL(copy_heat),
                            CALL(find_cold),      CALL(melt),        CALL(gravity),        CALL(find_patterns),
