@@ -2,7 +2,6 @@
 // the kernels on its processor; without any, these tests say so and are skipped.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include "kernel/scene/scene.h"
 #include "tests/kernel/engine/gpu/hostile_world.h"
 #include "tests/kernel/engine/gpu/same_steps.h"
+#include "tests/kernel/engine/scene_names.h"
 #include "tests/rounds.h"
 
 namespace voxmelt::gpu {
@@ -36,19 +36,11 @@ std::shared_ptr<Device> this_scene(const Parameters& parameters, Grid grid) {
   return open(open_cl_devices().front(), &constants);
 }
 
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(VOXMELT_SCENES_FOLDER))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 // Every scene, from its start and from the middle of its melt. A third of them is quick.
 TEST(OpenClScenes, HaveTheDigestsAndTheBooks) {
   VOXMELT_NEEDS_A_DEVICE();
   const int count = all_rounds() ? 60 : 4;
-  for (const std::string& name : some_of(scene_names())) {
+  for (const std::string& name : some_of(scene_names(VOXMELT_SCENES_FOLDER))) {
     const scene::Scene scene =
         scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
     run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});

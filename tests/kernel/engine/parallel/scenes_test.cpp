@@ -1,7 +1,6 @@
 // Every committed scene gives the digests of the reference, step by step. This holds for every
 // implementation, for threads and tile sizes, asleep and awake. Each scene runs twice: from its start, and
 // from the middle of its melt, where everything moves.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,19 +10,12 @@
 #include "kernel/automaton/state/digest.h"
 #include "kernel/scene/scene.h"
 #include "tests/kernel/engine/parallel/equal.h"
+#include "tests/kernel/engine/scene_names.h"
 
 namespace voxmelt::parallel {
 namespace {
 
 using namespace worlds;
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(VOXMELT_SCENES_FOLDER))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 struct Case {
   std::string implementation;
@@ -86,7 +78,7 @@ TEST_P(Scenes, InTheMiddleOfTheMelt) {
   compare(scene.parameters, fast.volume(), kSteps / 5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Committed, Scenes, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Committed, Scenes, testing::ValuesIn(scene_names(VOXMELT_SCENES_FOLDER)),
                          [](const auto& chosen) { return chosen.param; });
 
 }  // namespace
