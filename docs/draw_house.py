@@ -69,6 +69,7 @@ PURPOSES = {
     "kernel/scene": "what a file says",
     "kernel/scene/text": "documents and their readers",
     "kernel/scene/shape": "solids, meshes, height fields to voxels",
+    "kernel/scene/mesh_file": "readers of meshes",
     "kernel/engine": "who executes it",
     "kernel/engine/cpu": "16-bit lanes, one file per instruction set",
     "kernel/engine/scalar": "the reference, in plain loops",

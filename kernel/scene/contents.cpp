@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <utility>
 
 #include "kernel/scene/look.h"
+#include "kernel/scene/mesh_reader.h"
 #include "kernel/scene/shape/heightfield.h"
 #include "kernel/scene/shape_reader.h"
 #include "kernel/scene/text/units.h"
@@ -82,35 +81,6 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   terrain.textured = true;
 }
 
-// Reads a mesh. It is turned, scaled, then set down: the centre of its bounding box's bottom comes to `at`.
-void read_mesh_entry(Reader& reader, Entry& entry) {
-  const std::filesystem::path file = reader.file("file");
-  entry.mesh_file = file.filename().string();
-  const bool by_height = reader.has("height"), by_scale = reader.has("scale");
-  if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
-  const Range positive = above(0).at_most(kLargestScale);
-  const double wanted = reader.number(by_scale ? "scale" : "height", positive);
-  entry.inside = static_cast<Inside>(reader.choice("inside", {"winding", "parity"}, 0));
-  const Point at = to_point(reader.vector<3>("at", coordinate(), Vec3{}));
-  const Rotation rotation(reader.vector<3>("rotate", within(kFullTurn), Vec3{}));
-
-  Mesh mesh = read_mesh(file, reader.place("file"));
-  for (Point& vertex : mesh.vertices) vertex = rotation.apply(vertex);
-  const Box box = mesh.bounds();
-  const double tall = box.high.y - box.low.y;
-  if (by_height && !(tall > 0)) reader.fail("height", ": " + file.string() + " has no height to scale");
-  const double scale = by_scale ? wanted : wanted / tall;
-  const Point foot{(box.low.x + box.high.x) / 2, box.low.y, (box.low.z + box.high.z) / 2};
-  for (Point& vertex : mesh.vertices) vertex = (vertex - foot) * scale + at;
-  for (const std::uint32_t corner : mesh.corners) {
-    const Point& p = mesh.vertices[corner];
-    if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestMeshCoordinate))
-      reader.fail("file",
-                  fmt::format(": {} reaches farther than {} cells", file.string(), kLargestMeshCoordinate));
-  }
-  entry.mesh = std::move(mesh);
-}
-
 int read_material_name(Reader& reader, const std::vector<std::string>& materials) {
   if (!reader.has("material")) return 0;
   if (materials.empty()) reader.fail("material", " needs [[materials]]: the scene has one material");
@@ -163,7 +133,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& p
         entry.cut = reader.flag("cut", false);
         read_state(reader, parameters.material, materials, entry);
         if (shape == "mesh")
-          read_mesh_entry(reader, entry);
+          read_mesh_entry(reader, grid, entry);
         else
           entry.shape = read_shape(reader, shape);
         contents.entries.push_back(std::move(entry));

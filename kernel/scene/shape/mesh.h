@@ -1,23 +1,28 @@
-// Polygon meshes come from Wavefront OBJ files, and fill cells.
+// Polygon meshes fill cells.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "kernel/scene/shape/coverage.h"
-#include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
+
+// Names the faces from one on, up to the next part.
+struct MeshPart {
+  std::string name;
+  std::size_t first_face = 0;
+};
 
 struct Mesh {
   std::vector<Point> vertices;
   std::vector<std::uint32_t> corners;  // corners of face after face: indices of vertices, all in range
   std::vector<std::uint32_t> ends;     // for each face the corner behind its last; a face has at least 3
   std::size_t short_faces = 0;         // lines of the file that name fewer corners, and are no faces
+  std::vector<MeshPart> parts;         // in the order of their faces; those before the first have no name
 
   std::size_t faces() const { return ends.size(); }
   std::span<const std::uint32_t> face(std::size_t i) const {
@@ -26,10 +31,6 @@ struct Mesh {
   }
   Box bounds() const;  // box of the vertices that faces use
 };
-
-// Reads a mesh. It throws InputError with `place` and the file (with its line). The file may be missing,
-// truncated or without faces. Indices may be out of range, and coordinates may be no finite numbers.
-Mesh read_mesh(const std::filesystem::path& file, const Place& place);
 
 // Bounds the distance of vertices from the origin, in cells.
 inline constexpr double kLargestMeshCoordinate = 16384;

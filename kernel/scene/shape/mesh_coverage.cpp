@@ -1,10 +1,19 @@
 
+#include <cstdint>
+
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/mesh_layers.h"
 #include "kernel/scene/shape/mesh_shells.h"
 #include "kernel/scene/shape/mesh_thin.h"
 
 namespace voxmelt::scene {
+
+Box Mesh::bounds() const {
+  const Point first = vertices[corners.front()];
+  Box box{first, first};
+  for (const std::uint32_t vertex : corners) box.include(vertices[vertex]);
+  return box;
+}
 
 MeshCoverage cover(const Mesh& mesh, Inside inside, state::Grid grid) {
   MeshCoverage result;

@@ -97,6 +97,8 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t limit,
 
   // The file is read in pieces, so that reading an endless device stops at the limit.
   std::string text;
+  const auto size = std::filesystem::file_size(file, ignored);
+  if (!ignored && size <= limit) text.reserve(size + 1);  // a text that grows is there twice
   const bool pipe = std::filesystem::is_fifo(file, ignored);
   std::array<char, 65536> piece;
   for (;;) {

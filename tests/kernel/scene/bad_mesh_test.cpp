@@ -7,8 +7,10 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/kernel/scene/mesh_files.h"
 #include "tests/kernel/scene/mesh_text.h"
 #include "tests/kernel/scene/scene_text.h"
 
@@ -47,6 +49,37 @@ class BadMesh : public testing::Test {
     EXPECT_GT(cells, 100);
     EXPECT_LE(wrong, cells / 100) << "of " << cells;
     EXPECT_NEAR(solid_mass(scene.initial), mass / 64.0, 0.015 * mass / 64.0);
+    expect_the_same_of_each_format(mesh, moved, keys);
+  }
+
+  // Expects of each other format what the same mesh gives as OBJ: the same bits, and the same warnings. STL
+  // and glTF know triangles of floats alone, and a vertex of STL has a face.
+  void expect_the_same_of_each_format(const MeshText& mesh, const std::function<Corner(Corner)>& moved,
+                                      const std::string& keys) {
+    MeshText here = mesh;
+    for (Corner& vertex : here.vertices) vertex = moved(vertex);
+    const auto load = [&](const std::string& name, const std::string& bytes) {
+      folder_.write(name, bytes);
+      Scene scene = folder_.load_text(fmt::format(
+          "[grid]\nsize = [{0}, {0}, {0}]\n[[solid]]\nshape = \"mesh\"\nfile = \"{1}\"\nheight = 24\n"
+          "at = [16, 4, 16]\n{2}",
+          kSide, name, keys));
+      for (std::string& warning : scene.warnings)
+        if (warning.starts_with(name)) warning.erase(0, name.size());
+      return std::pair(scene.initial_digest, scene.warnings);
+    };
+    const auto polygons = load("m.obj", here.text());
+    EXPECT_EQ(load("m.ply", ply_text(here)), polygons);
+    EXPECT_EQ(load("m.ply", ply_bytes(here, false)), polygons);
+    EXPECT_EQ(load("m.ply", ply_bytes(here, true)), polygons);
+    const MeshText floats = as_triangles(here);
+    const MeshText used = without_unused(floats);
+    if (const auto [low, high] = used.bounds(); high[1] == low[1]) return;  // floats cannot say it
+    const auto triangles = load("m.obj", floats.text());
+    EXPECT_EQ(load("m.glb", glb_bytes(gltf_text(floats, ""))), triangles);
+    const auto all_used = load("m.obj", used.text());
+    EXPECT_EQ(load("m.stl", stl_text(used)), all_used);
+    EXPECT_EQ(load("m.stl", stl_bytes(used)), all_used);
   }
 
   SceneFolder folder_;

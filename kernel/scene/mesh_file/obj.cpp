@@ -1,42 +1,20 @@
-#include "kernel/scene/shape/mesh.h"
-
+// The reader of Wavefront OBJ.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "kernel/scene/mesh_file/formats.h"
+#include "kernel/scene/mesh_file/words.h"
 #include "kernel/scene/text/text_file.h"
 
 namespace voxmelt::scene {
 namespace {
-
-constexpr std::size_t kLargestMeshFile = std::size_t{1} << 30;
-constexpr double kLargestNumber = 1e30;
-constexpr std::string_view kBlanks = " \t\r\v\f";
-
-// Takes the first word off a line. It is empty at the line's end.
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-// Reads the number of a vertex. from_chars knows no sign +.
-std::optional<std::int64_t> index_in(std::string_view word) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  std::int64_t number{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return number;
-}
 
 // Reads the data that shapes need. Materials, normals and texture coordinates can be wrong without harm.
 class ObjReader {
@@ -50,6 +28,7 @@ class ObjReader {
       const std::string_view kind = take_word(line);
       if (kind == "v") vertex(line);
       if (kind == "f") face(line, text.empty());
+      if (kind == "o" || kind == "g") mesh_.parts.push_back({std::string(rest_of(line)), mesh_.faces()});
     }
     if (mesh_.vertices.empty()) fail_at(place_, fmt::format("{}: the mesh has no vertices", file_));
     if (mesh_.ends.empty()) fail_at(place_, fmt::format("{}: the mesh has no faces", file_));
@@ -84,9 +63,8 @@ class ObjReader {
   double coordinate(std::string_view& line) const {
     const std::string_view word = take_word(line);
     if (word.empty()) fail("a vertex needs 3 coordinates: is the file truncated?");
-    const std::optional<double> value = real_number_in(word);
-    if (!value || !std::isfinite(*value) || std::abs(*value) > kLargestNumber)
-      fail(fmt::format("{} is not a coordinate", in_quotes(word)));
+    const std::optional<double> value = coordinate_in(word);
+    if (!value) fail(fmt::format("{} is not a coordinate", in_quotes(word)));
     return *value;
   }
 
@@ -99,7 +77,7 @@ class ObjReader {
     const std::int64_t known = mesh_.vertices.size();
     int corners = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
-      const std::optional<std::int64_t> index = index_in(word.substr(0, word.find('/')));
+      const std::optional<std::int64_t> index = whole_number_in(word.substr(0, word.find('/')));
       if (!index) fail(fmt::format("{} is not a vertex of a face", in_quotes(word)));
       if (*index == 0 || *index > known || *index < -known)
         fail(fmt::format("a face names vertex {}, but {} vertices are known here", *index, known));
@@ -125,17 +103,8 @@ class ObjReader {
 
 }  // namespace
 
-Box Mesh::bounds() const {
-  const Point first = vertices[corners.front()];
-  Box box{first, first};
-  for (const std::uint32_t vertex : corners) box.include(vertices[vertex]);
-  return box;
-}
-
-Mesh read_mesh(const std::filesystem::path& file, const Place& place) {
-  const std::string name = file.string();
-  const std::string text = read_text_file(file, kLargestMeshFile, place.text());
-  return ObjReader(name, place).read(without_mark(text, place, name));
+Mesh read_obj(std::string_view bytes, const std::string& file, const Place& place) {
+  return ObjReader(file, place).read(without_mark(bytes, place, file));
 }
 
 }  // namespace voxmelt::scene
