@@ -53,7 +53,9 @@ std::filesystem::path find_scene(const std::string& given) {
 }
 
 void add_scene(Command command, Common& common) {
-  command.option("scene", common.scene, "scene file (TOML), a name of `voxmelt list scenes`, or a checkpoint")
+  command
+      .option("scene", common.scene,
+              "scene file (TOML), a name of `voxmelt list scenes`, a model, or a checkpoint")
       .required();
 }
 
@@ -111,6 +113,8 @@ scene::Scene load_scene(const Common& common) {
   std::vector<std::string> sets = common.sets;
   if (common.seed) sets.push_back(fmt::format("run.seed={}", *common.seed));
   scene::Scene scene = scene::load(file, sets);
+  for (const std::string& line : scene.assumed)
+    if (!common.quiet) say("assumed: " + line);
   say_warnings(common, scene.warnings);
   return scene;
 }

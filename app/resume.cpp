@@ -161,6 +161,9 @@ void take_over(const Candidate& from, const RunRecord& record, const fs::path& f
   for (const checkpoint::FileState& frame : record.frames)
     link_or_copy(from.folder / "frames" / frame.name, folder / "frames" / frame.name);
   io::flush_folder(folder);
+  std::error_code ignored;
+  if (const fs::path scene = from.folder / "scene.toml"; fs::exists(scene, ignored))
+    link_or_copy(scene, folder / scene.filename());  // of a model
   fs::create_directories(folder / "checkpoints");
   for (const io::CheckpointFile& one : io::checkpoints_in(from.folder))
     if (one.step <= from.step) link_or_copy(one.file, folder / "checkpoints" / one.file.filename());

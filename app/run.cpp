@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <ios>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <random>
@@ -88,6 +91,19 @@ std::string by_chance() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
+// Writes the scene that was assumed of a model, to be changed. One that was changed is not replaced.
+void write_assumed_scene(const scene::Scene& scene, const io::OutputFolder& out) {
+  if (scene.assumed_text.empty()) return;
+  const std::filesystem::path old = out.place() / "scene.toml";
+  std::ifstream stream(old, std::ios::binary);
+  const std::string text{std::istreambuf_iterator(stream), {}};
+  if (stream && text != scene.assumed_text)
+    throw UsageError(
+        fmt::format("{}: error: it is another one than is assumed of {}; run it, or take it away",
+                    seen_from_here(old), scene.file.string()));
+  io::write_file(out.partial() / "scene.toml", scene.assumed_text);
+}
+
 PreparedRun prepare(const RunOptions& options) {
   const Common& common = options.common;
   PreparedRun run{load_scene(common), {}, {}, nullptr};
@@ -119,6 +135,7 @@ PreparedRun prepare(const RunOptions& options) {
   keep_inputs(scene, {{"--out", place}, {"--report", common.report}});
   check_report_place(common, place);
   run.out = std::make_unique<io::OutputFolder>(place);
+  write_assumed_scene(scene, *run.out);
   return run;
 }
 
@@ -170,7 +187,7 @@ void add_run(CommandLine& program) {
       program.add("run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
   add_scene(command, options->common);
   const Option scene = command.find("scene").required(false).described_as(
-      "scene file (TOML), or a name of `voxmelt list scenes`; --resume goes on from a checkpoint");
+      "scene file (TOML), a name of `voxmelt list scenes`, or a model; --resume goes on from a checkpoint");
   const Option resume = command.option(
       "--resume", options->resume,
       "go on with the run of this folder: interrupted, killed, out of room, or with more --steps");

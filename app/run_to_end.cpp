@@ -180,6 +180,9 @@ class Run {
           place_);
     print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
     print("report         {}/report.json\n", place_);
+    if (!run_.scene.assumed.empty())
+      print("scene          {}/scene.toml; change it, then: voxmelt run {}\n", place_,
+            shell_word(place_ + "/scene.toml"));
     if (const std::string limit =
             limit_text(simulation_.ledger().limit, simulation_.parameters().flow.viscous);
         !limit.empty())

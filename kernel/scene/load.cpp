@@ -14,6 +14,7 @@
 #include "kernel/scene/features.h"
 #include "kernel/scene/look_reader.h"
 #include "kernel/scene/memory.h"
+#include "kernel/scene/model_scene.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/scene.h"
 #include "kernel/scene/start.h"
@@ -95,6 +96,11 @@ std::string settings_of(Value document) {
   return print_document(document);
 }
 
+Value document_of(const ModelScene& model, const std::filesystem::path& file) {
+  return parse_text(model.text,
+                    std::make_shared<const Origin>(Origin{file.string() + " (its scene)", {}, false}));
+}
+
 // Tells if every cell that touches this place is solid or inert. Outside the grid no cell is.
 bool is_buried(const state::Volume& cells, const rule::Position& at) {
   constexpr std::int64_t cell = rule::kPositionUnit;
@@ -130,12 +136,16 @@ std::string title_of(const std::filesystem::path& file) {
 
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const FilesRead read;
-  Value document = read_document(file);
+  ModelScene model;
+  if (is_model_file(file)) model = scene_of_model(file);
+  Value document = model.text.empty() ? read_document(file) : document_of(model, file);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
 
   Scene scene;
   scene.file = file;
   scene.name = file.stem().string();
+  scene.assumed = std::move(model.assumed);
+  scene.assumed_text = std::move(model.text);
   Reader root(document, "");
   const state::Grid grid = read_settings(root, scene);
 

@@ -41,14 +41,17 @@ struct Scene {
   Light light;
   Look look;
   Terrain terrain;
-  std::vector<Change> changes;  // [[change]], steps ascending; those before `first_step` count as made
-  std::string text;             // TOML: all of the document; nothing for a checkpoint
-  std::string settings;         // TOML: all of the document but what fills the grid
+  std::vector<Change> changes;       // [[change]], steps ascending; those before `first_step` count as made
+  std::vector<std::string> assumed;  // lines that say what was assumed of a model without a scene
+  std::string assumed_text;          // scene file of such a model, with comments
+  std::string text;                  // TOML: all of the document; nothing for a checkpoint
+  std::string settings;              // TOML: all of the document but what fills the grid
   std::optional<state::MidRun> mid_run;  // set if a run goes on from `initial`, not if it begins there
 };
 
-// Reads a scene file. `overrides` are "path.to.key=value" of --set. They are applied to the parsed document
-// before it is read, so that they are checked like the file itself. It throws InputError or ResourceError.
+// Reads a scene file, or a model, for which a scene is assumed. `overrides` are "path.to.key=value" of --set.
+// They are applied to the parsed document before it is read, so that they are checked like the file itself.
+// It throws InputError or ResourceError.
 Scene load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 // Makes a scene of `settings` that an earlier load() gave, without anything in its grid. `origin` names it in

@@ -200,7 +200,8 @@ class Meshes(unittest.TestCase):
     def test_the_same_cup_in_each_format(self):
         lines = {}
         for cup in CUPS:
-            result = voxmelt("digest", write(self.folder, scene_of(DATA / cup)), "--steps", 0)
+            result = voxmelt("digest", write(self.folder, scene_of(DATA / cup)), "--steps", 0,
+                             *(["--set", "solid.0.up=z"] if cup.endswith(".stl") else []))
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(result.stderr.replace(cup, "cup"), "warning: cup: 2 shells\n"
                              "warning: cup: shells overlap, or one crosses itself: united\n")
@@ -217,6 +218,51 @@ class Meshes(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""), name)
             lines.add(result.stdout)
         self.assertEqual(len(lines), 1)
+
+    def test_a_model_without_a_scene(self):
+        (self.folder / "cup of tea.stl").write_bytes((DATA / "cup.stl").read_bytes())
+        first = voxmelt("run", "cup of tea.stl", "--steps", 2, "--size", "32x32", cwd=self.folder)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        assumed = [line for line in first.stderr.splitlines() if line.startswith("assumed: ")]
+        # The cup is 9.75 wide, 8 high and 7.5 deep, with its handle. 96 cells of width are 9.846 to a unit.
+        self.assertEqual(assumed[0], "assumed: z points up in cup of tea.stl; it is fitted to a grid of 128 x 85 x 106 cells, 9.846 to its unit")
+        self.assertEqual(len(assumed), 3)
+        self.assertIn("scene          out/cup of tea/scene.toml; change it", first.stdout)
+        scene = self.folder / "out/cup of tea/scene.toml"
+        digests = [voxmelt("digest", name, "--steps", 3, cwd=self.folder).stdout for name in ("cup of tea.stl", scene)]
+        self.assertEqual(*digests)
+        again = voxmelt("run", "cup of tea.stl", "--steps", 1, "--size", "32x32", "--quiet", cwd=self.folder)
+        self.assertEqual((again.returncode, again.stderr, again.stdout), (0, "", ""))
+        on = voxmelt("run", "--resume", "out/cup of tea", "--steps", "+1", cwd=self.folder)
+        self.assertEqual(on.returncode, 0, on.stderr)
+        self.assertEqual(voxmelt("run", scene, "--steps", 0, "--out", "other", cwd=self.folder).returncode, 0)
+
+        text = scene.read_text()
+        scene.write_text(text.replace("melting_point = 0.5", "melting_point = 0.4"))
+        changed = voxmelt("run", "cup of tea.stl", "--steps", 1, cwd=self.folder)
+        self.assertEqual(changed.returncode, 2)
+        self.assertIn("out/cup of tea/scene.toml: error: it is another one than is assumed of cup of tea.stl; run it, or take it away\n",
+                      changed.stderr)
+        self.assertIn("melting_point = 0.4", scene.read_text(), "what somebody changed is never lost")
+
+    def test_models_of_each_format_stand_alike(self):
+        lines = {voxmelt("digest", DATA / cup, "--steps", 1, "--quiet").stdout for cup in CUPS}
+        self.assertEqual(len(lines), 1, lines)
+
+    def test_models_that_are_none(self):
+        for name, content, expected in (
+                ("cut.stl", binary_stl()[:-7], "cut.stl: error: cut.stl: 4 triangles are 284 bytes, and the file has 277"),
+                ("point.ply", PLY.replace("\n1 0 0", "\n0 0 0").replace("\n0 1 0", "\n0 0 0").replace("\n0 0 1", "\n0 0 0"),
+                 "point.ply: error: the model has no size"),
+                ("gone.glb", None, "gone.glb: error: cannot read gone.glb: No such file")):
+            with self.subTest(name):
+                if content is not None:
+                    (self.folder / name).write_bytes(content.encode() if isinstance(content, str) else content)
+                result = voxmelt("run", name, cwd=self.folder)
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(result.stderr.startswith(expected), result.stderr)
+                self.assertEqual(result.stderr.count("\n"), 1)
+                self.assertFalse((self.folder / "out").exists())
 
     def test_bad_files(self):
         self.assertGreaterEqual(len(BAD), 60)

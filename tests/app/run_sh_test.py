@@ -13,6 +13,7 @@ ROOT = Path(sys.argv[1]).resolve()
 GIVEN = {
     "": "run cello",
     "goblet": "run goblet",
+    "my_model.stl": "run my_model.stl",
     "goblet --steps 500": "run goblet --steps 500",
     "--steps 120": "run cello --steps 120",
     "--steps=120": "run cello --steps=120",

@@ -3,10 +3,12 @@
 
   write_cup.py        in tests/data, with Debian's package assimp-utils
 
-All coordinates are multiples of 1/16 and have at most five digits, so that no format rounds them.
+All coordinates are multiples of 1/16 and have at most five digits, so that no format rounds them. z points up in
+STL, as it does in models for printing; in the others y does.
 """
 import math
 import subprocess
+import tempfile
 from pathlib import Path
 
 AROUND = 24
@@ -52,15 +54,23 @@ def cup():
     return vertices, faces
 
 
+def text_of(vertices, faces):
+    text = "o cup\n" + "".join(f"v {x:g} {y:g} {z:g}\n" for x, y, z in vertices)
+    return text + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
+
+
 def main():
     vertices, faces = cup()
     folder = Path(__file__).resolve().parent
-    text = "o cup\n" + "".join(f"v {x:g} {y:g} {z:g}\n" for x, y, z in vertices)
-    text += "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
+    text = text_of(vertices, faces)
     (folder / "cup.obj").write_text(text)
-    for form, name in (("stlb", "cup.stl"), ("stl", "cup_text.stl"), ("plyb", "cup.ply"), ("ply", "cup_text.ply"),
-                       ("glb2", "cup.glb"), ("gltf2", "cup.gltf")):
-        subprocess.run(["assimp", "export", folder / "cup.obj", folder / name, f"-f{form}"], check=True, stdout=subprocess.DEVNULL)
+    with tempfile.TemporaryDirectory() as other:
+        standing = Path(other) / "cup.obj"
+        standing.write_text(text_of([(x, -z, y) for x, y, z in vertices], faces))
+        for form, name in (("stlb", "cup.stl"), ("stl", "cup_text.stl"), ("plyb", "cup.ply"), ("ply", "cup_text.ply"),
+                           ("glb2", "cup.glb"), ("gltf2", "cup.gltf")):
+            source = standing if name.endswith("stl") else folder / "cup.obj"
+            subprocess.run(["assimp", "export", source, folder / name, f"-f{form}"], check=True, stdout=subprocess.DEVNULL)
 
 
 main()
