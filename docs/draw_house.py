@@ -70,6 +70,7 @@ PURPOSES = {
     "kernel/scene/text": "documents and their readers",
     "kernel/scene/shape": "solids, meshes, height fields to voxels",
     "kernel/scene/mesh_file": "readers of meshes",
+    "kernel/scene/voxel_file": "readers of volumes",
     "kernel/engine": "who executes it",
     "kernel/engine/cpu": "16-bit lanes, one file per instruction set",
     "kernel/engine/scalar": "the reference, in plain loops",

@@ -12,6 +12,7 @@
 #include "kernel/scene/shape/heightfield.h"
 #include "kernel/scene/shape_reader.h"
 #include "kernel/scene/text/units.h"
+#include "kernel/scene/volume_reader.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -118,7 +119,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& p
     for (std::size_t i = 0; i < readers.size(); ++i) {
       Reader& reader = readers[i];
       std::vector<std::string> names = shape_names();
-      names.insert(names.end(), {"mesh", "heightfield", "floor"});
+      names.insert(names.end(), {"mesh", "volume", "heightfield", "floor"});
       const std::string shape = names[reader.choice("shape", names)];
       if (shape == "floor" || shape == "heightfield") {
         if (role != Role::inert) reader.fail("shape", fmt::format(" = \"{}\" is for [[inert]] only", shape));
@@ -134,6 +135,8 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& p
         read_state(reader, parameters.material, materials, entry);
         if (shape == "mesh")
           read_mesh_entry(reader, grid, entry);
+        else if (shape == "volume")
+          read_volume_entry(reader, grid, entry);
         else
           entry.shape = read_shape(reader, shape);
         contents.entries.push_back(std::move(entry));

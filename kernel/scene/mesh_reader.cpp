@@ -3,60 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "kernel/scene/look.h"
 #include "kernel/scene/mesh_file/mesh_file.h"
+#include "kernel/scene/stand.h"
 #include "kernel/scene/text/units.h"
 
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestScale = 1e9;
-
-// Says where a mesh comes to stand, and how large. The middle of its underside comes to `at`.
-struct Stand {
-  Point at;
-  double scale = 1;
-};
-
-// Returns the length of the file's unit in metres, or 1 if none is named.
-double read_unit(Reader& reader) {
-  if (!reader.has("unit")) return 1;
-  constexpr std::array metres{1.0, 0.01, 0.001, 0.0254, 0.3048};
-  const double metre = metres[reader.choice("unit", {"m", "cm", "mm", "in", "ft"})];
-  if (!reader.has("scale")) reader.fail("unit", " needs scale, which counts cells per metre then");
-  return metre;
-}
-
-// Makes the mesh as large as the grid has room for, and sets it down in the middle.
-Stand read_fit(Reader& reader, Reader& fit, const std::filesystem::path& file, const Box& box,
-               state::Grid grid) {
-  for (const char* key : {"height", "scale", "at"})
-    if (reader.has(key)) reader.fail(key, " and fit exclude each other");
-  const double margin = fit.number("margin", at_most(kLargestMeshCoordinate), 2.0);
-  const double floor = fit.number("floor", at_most(grid.y).because("the height of the grid"), 0.0);
-  fit.finish();
-  const std::array room{grid.x - 2 * margin, grid.y - floor - margin, grid.z - 2 * margin};
-  if (std::min({room[0], room[1], room[2]}) <= 0)
-    reader.fail("fit", fmt::format(": a margin of {} and a floor of {} leave no room", margin, floor));
-  const Point size = box.high - box.low;
-  double scale = std::numeric_limits<double>::infinity();
-  for (const auto& [side, space] : {std::pair{size.x, room[0]}, {size.y, room[1]}, {size.z, room[2]}})
-    if (side > 0) scale = std::min(scale, space / side);
-  if (!std::isfinite(scale)) reader.fail("fit", ": " + file.string() + " has no size to fit");
-  return {{grid.x / 2.0, floor, grid.z / 2.0}, scale};
-}
-
 Stand read_stand(Reader& reader, const std::filesystem::path& file, const Box& box, state::Grid grid) {
   const double metre = read_unit(reader);
-  if (std::optional<Reader> fit = reader.table("fit")) return read_fit(reader, *fit, file, box, grid);
+  if (const std::optional<Stand> fit = read_fit(reader, file, box, grid)) return *fit;
   const bool by_height = reader.has("height"), by_scale = reader.has("scale");
   if (by_height && by_scale) reader.fail("scale", " and height exclude each other");
   const double wanted = reader.number(by_scale ? "scale" : "height", above(0).at_most(kLargestScale));

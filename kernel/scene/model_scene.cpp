@@ -16,6 +16,8 @@
 #include "kernel/scene/text/ascii.h"
 #include "kernel/scene/text/document.h"
 #include "kernel/scene/text/print.h"
+#include "kernel/scene/volume_reader.h"
+#include "kernel/scene/voxel_file/voxels.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -34,6 +36,7 @@ struct Plan {
 // Returns the size of the model, as it stands.
 Point size_of(const std::filesystem::path& model, bool z_is_up) {
   const Place place{std::make_shared<const Origin>(Origin{model.string(), {}, false})};
+  if (is_voxel_file(model)) return size_of_volume(model, place);
   const Box box = read_mesh(model, place).bounds();
   const Point size = box.high - box.low;
   if (!(std::max({size.x, size.y, size.z}) > 0)) fail_at(place, "the model has no size");
@@ -69,10 +72,10 @@ steps = {steps}
 frame_every = {every}
 
 [[solid]]
-shape = "mesh"
+shape = "{shape}"
 file = {file}
 up = "{up}"                 # the axis of the file that points up
-fit = {{ margin = {margin}, floor = {floor} }}   # cells that stay free; `height` and `at` place it by hand
+fit = {{ margin = {margin}, floor = {floor} }}   # cells that stay free; `scale` and `at` place it by hand
 temperature = 0.0        # at the beginning; 0 to 1 are the scene's
 
 [[inert]]
@@ -124,7 +127,7 @@ bool has_z_up(const std::filesystem::path& model) {
 
 }  // namespace
 
-bool is_model_file(const std::filesystem::path& file) { return is_mesh_file(file); }
+bool is_model_file(const std::filesystem::path& file) { return is_mesh_file(file) || is_voxel_file(file); }
 
 ModelScene scene_of_model(const std::filesystem::path& model) {
   const bool z_is_up = has_z_up(model);
@@ -137,8 +140,9 @@ ModelScene scene_of_model(const std::filesystem::path& model) {
   scene.text = fmt::format(
       kText, arg("title", toml_string(name)), arg("x", x), arg("y", y), arg("z", z), arg("steps", kSteps),
       arg("every", kSteps / kFrames), arg("file", toml_string(std::filesystem::absolute(model).string())),
-      arg("up", z_is_up ? "z" : "y"), arg("margin", kMargin), arg("floor", kFloor), arg("lamp_x", lamp_x),
-      arg("lamp_y", lamp_y), arg("lamp_z", lamp_z), arg("power", plan.power));
+      arg("shape", is_voxel_file(model) ? "volume" : "mesh"), arg("up", z_is_up ? "z" : "y"),
+      arg("margin", kMargin), arg("floor", kFloor), arg("lamp_x", lamp_x), arg("lamp_y", lamp_y),
+      arg("lamp_z", lamp_z), arg("power", plan.power));
   scene.assumed = {
       fmt::format("{} points up in {}; it is fitted to a grid of {} x {} x {} cells, {:.4g} to its unit",
                   z_is_up ? "z" : "y", name, x, y, z, plan.scale),

@@ -30,6 +30,8 @@ Coverage cover(const Entry& entry, state::Grid grid, std::vector<std::string>& w
   Coverage coverage;
   if (entry.shape) {
     coverage = scene::cover(*entry.shape, grid);
+  } else if (entry.coverage) {
+    coverage = *entry.coverage;
   } else {
     MeshCoverage mesh = scene::cover(entry.mesh, entry.inside, grid);
     for (const std::string& finding : mesh.findings)

@@ -1,10 +1,12 @@
 // Shapes, meshes and terrain become the cells of the initial state.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/state/volume.h"
+#include "kernel/scene/shape/coverage.h"
 #include "kernel/scene/shape/mesh.h"
 #include "kernel/scene/shape/shape.h"
 #include "kernel/scene/shape/terrain.h"
@@ -16,10 +18,11 @@ enum class Role { solid, liquid, inert };
 
 struct Entry {
   Role role = Role::solid;
-  std::string name;  // "solid.0"
-  bool cut = false;  // taken away from what its list has built so far
-  ShapePtr shape;    // null if the mesh is used
-  Mesh mesh;         // in place in the grid
+  std::string name;                  // "solid.0"
+  bool cut = false;                  // taken away from what its list has built so far
+  ShapePtr shape;                    // null if the mesh or the coverage is used
+  std::optional<Coverage> coverage;  // of a volume
+  Mesh mesh;                         // in place in the grid
   Inside inside = Inside::winding;
   std::string mesh_file;
   int material = 0;               // solid: its number in the palette

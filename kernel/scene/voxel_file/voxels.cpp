@@ -1,0 +1,69 @@
+#include "kernel/scene/voxel_file/voxels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "kernel/scene/text/ascii.h"
+#include "kernel/scene/text/text_file.h"
+#include "kernel/scene/voxel_file/formats.h"
+
+namespace voxmelt::scene {
+namespace {
+
+struct VoxelFormat {
+  std::string_view ending;
+  Voxels (*read)(std::string_view bytes, const VoxelSource& source);
+};
+
+constexpr std::array kVoxelFormats{
+    VoxelFormat{".npy", read_npy_voxels},        VoxelFormat{".npz", read_npz_voxels},
+    VoxelFormat{".nrrd", read_nrrd_voxels},      VoxelFormat{".nhdr", read_nrrd_voxels},
+    VoxelFormat{".mha", read_meta_image_voxels}, VoxelFormat{".mhd", read_meta_image_voxels},
+    VoxelFormat{".vox", read_magica_voxels}};
+
+// Returns the format, or null.
+const VoxelFormat* format_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), lower_case);
+  for (const VoxelFormat& format : kVoxelFormats)
+    if (format.ending == ending) return &format;
+  return nullptr;
+}
+
+std::string endings() {
+  std::string text;
+  for (const VoxelFormat& format : kVoxelFormats)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", format.ending);
+  return text;
+}
+
+}  // namespace
+
+void VoxelSource::fail(const std::string& message) const {
+  fail_at(place, fmt::format("{}: {}", file.string(), message));
+}
+
+bool is_voxel_file(const std::filesystem::path& file) { return format_of(file) != nullptr; }
+
+Voxels read_voxels(const VoxelSource& source) {
+  const VoxelFormat* format = format_of(source.file);
+  const std::string bytes = read_text_file(source.file, kLargestVoxelFile, source.place.text());
+  if (format == nullptr)
+    source.fail(fmt::format("volumes are read from {}, not from {}", endings(),
+                            in_quotes(source.file.extension().string())));
+  if (bytes.starts_with("version https://git-lfs"))
+    source.fail("this is a pointer of Git LFS; `git lfs pull` brings the file");
+  return format->read(bytes, source);
+}
+
+std::string read_beside(const VoxelSource& source, const std::string& name) {
+  if (name.empty() || name.find('\0') != std::string::npos) source.fail("names no file of numbers");
+  return read_text_file(source.file.parent_path() / name, kLargestVoxelFile,
+                        fmt::format("{}: error: {}", source.place.text(), source.file.string()));
+}
+
+}  // namespace voxmelt::scene

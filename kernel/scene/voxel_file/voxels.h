@@ -1,0 +1,38 @@
+// Volumes of numbers come from files of several formats. The ending of a file's name says which it is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernel/scene/text/document.h"
+
+namespace voxmelt::scene {
+
+// Says which voxels of a volume are filled.
+struct Voxels {
+  std::array<int, 3> size{};               // along x, y and z
+  std::array<double, 3> spacing{1, 1, 1};  // sides of a voxel, in the unit of the file
+  std::vector<std::uint8_t> filled;        // 0 or 1; x runs fastest, then y
+};
+
+// Says what is read, and of what number a voxel is filled.
+struct VoxelSource {
+  std::filesystem::path file;
+  Place place;        // for messages
+  std::string array;  // of a file of several; empty if none is named
+  std::function<bool(double)> is_filled;
+
+  [[noreturn]] void fail(const std::string& message) const;
+};
+
+// Tells if a file's name ends as those of volumes do.
+bool is_voxel_file(const std::filesystem::path& file);
+
+// Reads a volume. It throws InputError with the place, the file, and what is wrong with it.
+Voxels read_voxels(const VoxelSource& source);
+
+}  // namespace voxmelt::scene
