@@ -14,7 +14,7 @@ void predict_on_memory(VerifyReport& report, const Design& design, const Configu
                        const memory::Choice& memory, const state::Volume& start,
                        const Irradiance* irradiance) {
   report.most_bytes_per_cycle = memory.most_bytes_per_cycle();
-  const Design uncut{design.parameters, {start.grid, configuration.lanes}, 1};
+  const Design uncut{design.parameters, {start.grid, configuration.lanes}, 1, design.registers};
   Content content = content_of(uncut, irradiance, &start);
   content.falls = cells_that_fall(design.parameters, report.first_step, start).has_value();
   const std::vector<Train> trains =

@@ -90,7 +90,7 @@ std::vector<std::size_t> feed_delays(const Train& train, const Design& design, c
   bool reached = false;
   for (const StageKind stage : stages_of_step(design)) {
     reached |= stage == StageKind::exchange;
-    const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
+    const std::int64_t lag = lag_of(stage, design).tokens(design.shape) + registers_of(stage, design);
     const std::int64_t wait =
         1 + (lag < tokens ? c.interval() * lag : c.interval() * (tokens - 1) + lag - tokens + 1);
     step += wait;

@@ -27,6 +27,7 @@ struct Configuration {
   bool overlap = true;                 // may a pass enter while the last one drains?
   int tile = 0;                        // cells along x that the memories hold, in whole blocks; 0: the grid
   bool coded = false;                  // the state in memory has one bit for a token of air
+  bool registers = false;              // stages have the registers of their circuits (docs/hardware/rtl.md)
   std::vector<ChannelDepth> depths{};  // channels that differ from fifo_depth
 
   int depth_of(const std::string& channel) const {
@@ -58,6 +59,7 @@ inline constexpr std::array kHwKeys{
     hw_key<&Configuration::overlap>("overlap", 0, 1, "0, 1"),
     hw_key<&Configuration::tile>("tile", 0, kMostTile, "0: none"),
     hw_key<&Configuration::coded>("coded", 0, 1, "0, 1"),
+    hw_key<&Configuration::registers>("registers", 0, 1, "0, 1"),
     hw_key<&Configuration::fifo_depth>("fifo_depth", 1, kMostDepth, "1 .. 1024"),
     hw_key<&Configuration::stall_seed>("stall_seed", 0, std::numeric_limits<std::int64_t>::max(), "0: none"),
 };

@@ -113,6 +113,7 @@ class Gravity final : public Stage {
   void push_up(Falling& low, Falling& high) {
     const std::int64_t flow = std::min(low.amount - kOne, kAmountMax - high.amount);
     if (flow == 0) return;
+    if (hot_) hold_in_register(13, static_cast<int>(lag()) - 1);  // its heat needs a division before the next
     const std::int64_t energy = std::min<std::int64_t>(low.energy, flow);
     low.energy = low.energy - energy;
     high.energy = high.energy + energy;

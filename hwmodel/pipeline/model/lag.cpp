@@ -1,5 +1,7 @@
 #include "hwmodel/pipeline/model/lag.h"
 
+#include <algorithm>
+
 namespace voxmelt::hwmodel {
 
 Lag lag_of(StageKind kind, const Design& design) {
@@ -24,6 +26,40 @@ Lag lag_of(StageKind kind, const Design& design) {
       return {0, 2, 1};
     default:
       return {0, 0, 0};
+  }
+}
+
+Openings openings_of(const Design& design) {
+  const rule::Parameters& parameters = design.parameters;
+  return {std::max(2, static_cast<int>(parameters.vents.size())),
+          std::max(2, static_cast<int>(parameters.drains.size()))};
+}
+
+int registers_of(StageKind kind, const Design& design) {
+  using enum StageKind;
+  if (!design.registers) return 0;
+  const Openings openings = openings_of(design);
+  switch (kind) {
+    case fall:
+    case walls:
+      return 1;
+    case source:
+      return 8 + 25 * (openings.vents + openings.drains);
+    case conduction:
+    case convection:
+      return 7;
+    case exchange:
+      return 22;
+    case melt:
+      return 5;
+    case gravity:  // its circuit always looks at the cell above the upper one
+      return 40 - lag_of(kind, design).singles;
+    case pattern:
+      return 9;
+    case apply:
+      return 37;
+    default:
+      return 0;
   }
 }
 

@@ -19,4 +19,13 @@ struct Lag {
 };
 Lag lag_of(StageKind kind, const Design& design);
 
+// Returns the registers that the circuit of a stage has beyond its lag, in tokens (hwmodel/rtl). It is 0 for
+// a stage that is not written in SystemVerilog, and in a design without them.
+int registers_of(StageKind kind, const Design& design);
+// Returns how many vents and drains the circuit of stage source has room for.
+struct Openings {
+  int vents, drains;
+};
+Openings openings_of(const Design& design);
+
 }  // namespace voxmelt::hwmodel

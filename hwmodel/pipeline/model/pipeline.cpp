@@ -145,6 +145,13 @@ struct Pipeline::Machine {
     if (fall_feed && pass->uses(StageKind::fall, 0)) fall_feed->add_pass(pass->tile);
   }
 
+  std::int64_t held_cycles() const {
+    std::int64_t sum = 0;
+    for (const auto& step : steps)
+      for (const auto& stage : step->stages()) sum += stage->held_cycles();
+    return sum;
+  }
+
   using BuffersOf = std::vector<BufferCost> (*)(const CodeLayout&);
   std::vector<BufferCost> buffers(BuffersOf buffers_of) const {
     return memory.coded() ? buffers_of(memory.read_code().layout()) : std::vector<BufferCost>{};
@@ -282,12 +289,13 @@ PassEnd Pipeline::run_train(const Pass& pass, const Next& next, const Fed& fed, 
     m.feeds[t]->begin_pass(m.fed(pass, t) ? fed.irradiance : nullptr, pass.tile);
   if (m.fall_feed) m.fall_feed->begin_pass(falls, pass.tile);
 
+  const std::int64_t held = m.held_cycles();
   simulation_.begin(m.part);
   simulation_.run(m.part);
   m.memory.end_train();
   m.part.rethrow();
   const Part::End& end = m.part.end();
-  return {end.cycles, m.passes, end.complete, end.hangs};
+  return {end.cycles, m.passes, end.complete, end.hangs, m.held_cycles() - held};
 }
 
 std::int64_t Pipeline::cycle() const { return machine_->part.cycle(); }
@@ -340,7 +348,8 @@ std::vector<StageReport> Pipeline::stages() const {
       {StageKind::reader, 0, 0, m.reader.cycles(), m.buffers(reader_buffers), {}, m.bits_read()}};
   for (int t = 0; t < std::ssize(m.steps); ++t)
     for (const auto& stage : m.steps[t]->stages())
-      reports.push_back({stage->kind(), t, stage->lag(), stage->cycles(), stage->buffers(), stage->units()});
+      reports.push_back({stage->kind(), t, stage->lag() + stage->registers(), stage->cycles(),
+                         stage->buffers(), stage->units()});
   for (int t = 0; t < std::ssize(m.feeds); ++t)
     reports.push_back({StageKind::feed, t, 0, m.feeds[t]->cycles(), {}, {}, m.feeds[t]->bits()});
   if (m.fall_feed)

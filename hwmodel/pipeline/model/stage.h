@@ -32,7 +32,8 @@ using FallFifo = Fifo<UInt<1>>;   // does the cell fall?
 struct Design {
   rule::Parameters parameters;
   Shape shape;
-  int substeps = 1;  // copies of settle and spread in a time step of the viscous law
+  int substeps = 1;        // copies of settle and spread in a time step of the viscous law
+  bool registers = false;  // stages have those of their circuits (lag.h)
 
   bool paper() const { return parameters.flow.law == rule::Law::paper; }
   bool hot() const { return parameters.heat.enabled; }
@@ -135,7 +136,7 @@ class Lanes {
 
 class Stage {
  public:
-  // `lag` counts tokens.
+  // `lag` counts tokens, without those in its registers.
   Stage(StageKind kind, const Design& design, std::int64_t lag);
   virtual ~Stage() = default;
   Stage(const Stage&) = delete;
@@ -153,8 +154,8 @@ class Stage {
   // it runs follow without a gap.
   void begin_pass(step::Moment moment, bool bypass, int tile = 0);
   void add_pass(step::Moment moment, bool bypass, int tile = 0) { passes_.push_back({moment, bypass, tile}); }
-  bool cycle();  // true if the stage moved
-  bool done() const { return leaving_ == passes_.size(); }
+  virtual bool cycle();  // true if the stage moved
+  bool done() const { return leaving_ == passes_.size() && waiting_ == 0; }
 
   StageKind kind() const { return kind_; }
   std::string name() const { return std::string(name_of(kind_)); }
@@ -162,6 +163,7 @@ class Stage {
   const Shape& shape() const { return design_.shape; }
   int lanes() const { return design_.shape.lanes; }
   std::int64_t lag() const { return lag_; }
+  int registers() const { return registers_; }  // tokens that it gives later, as its circuit does
   std::uint32_t step() const { return moment().step; }
   const step::Moment& moment() const { return passes_[coming_].moment; }  // moment of the pass that comes
   std::uint32_t working_step() const { return step_at(spot_delay_); }     // step of the cell it computes
@@ -170,6 +172,7 @@ class Stage {
   const Place& came() const { return came_; }
   const Place& leaving() const { return left_; }
   const StageCycles& cycles() const { return cycles_; }
+  std::int64_t held_cycles() const { return held_cycles_; }  // in which a serial divider worked
   std::int64_t spot_delay() const { return spot_delay_; }
   Spot spot() const { return {place_at(spot_delay_), spot_lane_}; }  // place of the latest computation
   Place place_at(std::int64_t delay) const;  // place of the token that came `delay` moves ago
@@ -213,6 +216,12 @@ class Stage {
     spot_delay_ = delay;
     return {lanes(), spot_lane_};
   }
+  // Holds the stage as its circuit is held by a serial divider, which needs so many cycles. It begins when
+  // the token that came `ago` moves ago is in this register.
+  void hold_in_register(int number, int ago) {
+    if (registers_ > 0) holds_ |= std::uint64_t{1} << (number - 1 - ago);
+  }
+  static constexpr int kDividerCycles = 23;
   void compute_at(std::int64_t delay, int lane) {
     spot_delay_ = delay;
     spot_lane_ = lane;
@@ -222,18 +231,32 @@ class Stage {
   StageKind kind_;
   const Design& design_;
   std::int64_t lag_;
-  CellFifo* in_ = nullptr;
-  CellFifo* out_ = nullptr;
   bool may_take_next() const;
+  bool empty_registers();
+  void count_move();
 
-  std::vector<StagePass> passes_;
-  std::size_t coming_ = 0, leaving_ = 0;  // the passes at its two ends
-  std::int64_t moves_ = 0;                // since the first token of the pass that leaves came
+  std::int64_t moves_ = 0;  // since the first token of the pass that leaves came
   std::int64_t filled_ = 0;
-  Place came_, left_;
   std::int64_t spot_delay_ = 0;
   int spot_lane_ = 0;
+
+  // The registers that its circuit has more than its model. A token waits in them for so many moves.
+  int registers_, waiting_ = 0;
+  int behind_ = 0;        // moves behind the last token
+  std::size_t next_ = 0;  // place of the next token
+  std::vector<Cell> waits_;
+  Cell* wait_at(std::size_t place) { return &waits_[place * lanes()]; }
+  std::uint64_t holds_ = 0;  // bit n: n + 1 moves from now it is held
+  int held_ = 0;             // cycles left
+
+ protected:  // for a stage whose cycles are not those of a model
+  CellFifo* in_ = nullptr;
+  CellFifo* out_ = nullptr;
+  std::vector<StagePass> passes_;
+  std::size_t coming_ = 0, leaving_ = 0;  // the passes at its two ends
+  Place came_, left_;
   StageCycles cycles_;
+  std::int64_t held_cycles_ = 0;
 };
 
 }  // namespace voxmelt::hwmodel

@@ -55,6 +55,7 @@ struct PassEnd {
   int passes = 0;         // passes that began; every tile counts
   bool complete = false;  // false: the watcher stopped it, or it hangs
   bool hangs = false;
+  std::int64_t held = 0;  // cycles in which serial dividers held stages (hw.registers)
 };
 
 // Reports a value that did not fit its wire, or an address that its memory does not have.

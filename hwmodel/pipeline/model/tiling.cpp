@@ -33,7 +33,7 @@ int reach_of_step(const Design& design) {
 Design design_of(const rule::Parameters& parameters, state::Grid grid, const Configuration& configuration) {
   if (const std::string problem = unmodelled_rule(parameters); !problem.empty())
     throw std::invalid_argument(problem);
-  Design design{parameters, {grid, configuration.lanes}, configuration.substeps};
+  Design design{parameters, {grid, configuration.lanes}, configuration.substeps, configuration.registers};
   Shape& shape = design.shape;
   const int blocks = shape.grid_blocks(), widest = configuration.tile / configuration.lanes;
   if (configuration.tile == 0 || widest >= blocks) return design;

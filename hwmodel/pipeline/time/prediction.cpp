@@ -22,7 +22,7 @@ Flow flow_of(const Design& design, const Configuration& configuration, const Pas
   for (const StageKind stage : stages) {
     if (stage == StageKind::settle) ++copy;
     if (!pass.uses(stage, copy)) continue;
-    const std::int64_t lag = lag_of(stage, design).tokens(design.shape);
+    const std::int64_t lag = lag_of(stage, design).tokens(design.shape) + registers_of(stage, design);
     flow.longest = std::max(flow.longest, lag);
     flow.waits += pass.steps * (lag < tokens ? interval * lag : interval * (tokens - 1) + lag - tokens + 1);
   }
