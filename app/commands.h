@@ -21,6 +21,7 @@ void add_accuracy(CommandLine& program);
 
 // The program voxmelt-hardware has these.
 void add_verify(CommandLine& program);
+void add_rtl(CommandLine& program);
 void add_explore(CommandLine& program);
 
 // Adds `list WHAT`. `prints` has the lists that this program can print. It is never asked for the lists of

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   using namespace voxmelt::app;
   const auto add_commands = [](CommandLine& program) {
     add_verify(program);
+    add_rtl(program);
     add_explore(program);
     add_list(program, {{"presets", list_presets},
                        {"devices", list_devices},

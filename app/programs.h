@@ -26,6 +26,8 @@ inline constexpr std::array kElsewhere{
               "The physics: errors beside analytic answers, and the bars that they must keep"},
     Elsewhere{"verify", "voxmelt-hardware",
               "Run the hardware model in lock-step with the software; stop at the first difference"},
+    Elsewhere{"rtl", "voxmelt-hardware",
+              "Write the pipeline of a scene in SystemVerilog, with a test bench and scripts"},
     Elsewhere{"explore", "voxmelt-hardware",
               "Which hardware is best: all designs by closed form, the best ones simulated and verified"},
 };

@@ -6,8 +6,8 @@
 
 namespace voxmelt::app {
 
-// Returns share/voxmelt/NAME of this program: `scenes`, or `presets` (hardware configurations). It need not
-// exist.
+// Returns share/voxmelt/NAME of this program: `scenes`, `presets` (hardware configurations), or `rtl` (stages
+// in SystemVerilog). It need not exist.
 std::filesystem::path resource_folder(const std::filesystem::path& name);
 
 }  // namespace voxmelt::app

@@ -101,6 +101,13 @@ void check_asked(const VerifyCommand& command) {
   }
   refuse((picture || machine) && !command.size_fifos.empty(), "--size-fifos", "only of the pipeline alone");
   refuse(picture && command.plant_step.has_value(), "--plant-step", "a picture has no steps (--picture)");
+  const bool rtl = !command.rtl.empty();
+  refuse(rtl && picture, "--rtl", "the ray caster is not written in SystemVerilog");
+  refuse(rtl && machine, "--rtl", "only of the pipeline alone");
+  refuse(rtl && command.sleep, "--rtl", "--sleep runs the software alone");
+  refuse(rtl && !command.plant.empty(), "--rtl", "a fault is planted in a model");
+  refuse(rtl && !command.shrink.empty(), "--rtl", "--shrink makes machines that it is not compiled for");
+  refuse(rtl && !command.size_fifos.empty(), "--rtl", "--size-fifos is for the cycles of the models");
   refuse(command.plant_step && command.plant.empty(), "--plant-step",
          "there is no --plant whose step it would be");
   refuse(command.vcd_from && command.vcd.empty(), "--vcd-from",
@@ -152,6 +159,10 @@ void add_verify(CommandLine& program) {
                  "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
   command.flag("--sleep", options->sleep,
                "the software alone: step what sleeps, too, and compare after every phase");
+  command
+      .option("--rtl", options->rtl,
+              "stages in SystemVerilog stand in for their models: all that there are, or these")
+      .written_as("all|STAGE,STAGE");
   command.option("--plant", options->plant,
                  "plant a fault in the model (`voxmelt list faults`), to see it found");
   command.option("--plant-step", options->plant_step,

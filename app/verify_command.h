@@ -25,7 +25,7 @@ struct VerifyCommand {
   std::string from_text = "0";  // --from: a step, or a checkpoint
   bool sleep = false;           // the software alone: --sleep
   std::optional<std::uint32_t> plant_step;
-  std::string hw, plant, out, vcd, shrink, size_fifos;
+  std::string hw, plant, out, vcd, shrink, size_fifos, rtl;
   std::optional<std::int64_t> vcd_from;
   PictureChoice picture;
   std::vector<std::string> hw_sets;

@@ -13,6 +13,7 @@
 #include "app/verify_command.h"
 #include "app/verify_energy.h"
 #include "app/verify_report.h"
+#include "app/verify_rtl.h"
 #include "app/verify_shrink.h"
 #include "app/verify_sizes.h"
 #include "app/visibility.h"
@@ -98,6 +99,7 @@ Job job_of(VerifyCommand& command) {
   hwmodel::Preset preset = hwmodel::load_preset(find_preset(command.hw), command.hw_sets);
   Job job{command, std::move(preset), load_beginning(command),
           fault == nullptr ? hwmodel::Fault::none : fault->fault};
+  if (!command.rtl.empty()) job.preset.configuration.registers = true;
   check_pipeline(job.scene, job.preset.configuration);
   if (!command.size_fifos.empty() && job.preset.caster.dram && job.preset.configuration.coded &&
       job.scene.parameters.flow.law == rule::Law::viscous && job.scene.parameters.flow.viscous.substeps != 1)
@@ -185,7 +187,8 @@ int verify_pipeline(VerifyCommand command) {
     dram.emplace(design, c.cascade, *memory.dram, memory.clock_mhz);
     dram->log(traces.emplace(memory.trace, memory.command_trace));
   }
-  const hwmodel::VerifyOptions options = options_of(job, ahead.step_number(), dram ? &*dram : nullptr);
+  hwmodel::VerifyOptions options = options_of(job, ahead.step_number(), dram ? &*dram : nullptr);
+  RtlChoice rtl(command, job.scene.parameters, ahead.volume().grid, options);
   step::Tuning tuning;
   tuning.threads = thread_count(command.common);
   const step::Implementation& fast = find_phased_implementation(command.common);
@@ -206,13 +209,14 @@ int verify_pipeline(VerifyCommand command) {
         "error: --plant {}: in these steps of this scene there is nothing that this fault could change",
         command.plant));
   print_result(command, job.scene, verified, fast.name);
+  const bool alike = rtl.agrees_with_models(stream, fast, tuning, options, report, command.common.quiet);
   if (verdict == hwmodel::Verdict::good) {
     write_reports(job, verified);
     const std::string no_waves = write_waves(command.vcd, command.vcd_from, report.waves);
     if (!no_waves.empty()) throw UsageError(no_waves);
     if (!command.shrink.empty() && !command.common.quiet)
       print("--shrink: there is no difference to make small\n");
-    return !sized_cycles || check_sized(*sized_cycles, report.cycles) ? kDone : kCheckFailed;
+    return alike && (!sized_cycles || check_sized(*sized_cycles, report.cycles)) ? kDone : kCheckFailed;
   }
   try_writing([&] { write_reports(job, verified); });
   try_writing([&] {

@@ -47,6 +47,7 @@ PURPOSES = {
     "hwmodel/pipeline": "the automaton's stream, a stage per phase",
     "hwmodel/caster": "draws pictures, from bricks",
     "hwmodel/machine": "both machines on one memory",
+    "hwmodel/rtl": "stages of the pipeline as circuits",
     "hwmodel/explore": "which hardware is best for a device",
     "render": "the pictures",
     "render/rule": "the picture in integers",

@@ -2,7 +2,7 @@
 from collections import defaultdict
 
 # What a room with rooms of its own may have at most: rooms, floors and arrows between them.
-MOST = {"hwmodel": (8, 5, 14)}
+MOST = {"hwmodel": (8, 5, 15)}
 
 
 def at_every_level(includes):
@@ -64,5 +64,5 @@ def self_test():
     rooms = [f"hwmodel/{i}" for i in range(9)]
     chain = {(rooms[i], rooms[i + 1]) for i in range(8)}
     assert problems(set(rooms), chain) == ["hwmodel: 9 rooms inside; at most 8", "hwmodel: 9 floors inside; at most 5"]
-    flat = {(rooms[i], rooms[j]) for i in range(3) for j in range(3, 8)}
-    assert problems(set(rooms[:8]), flat) == ["hwmodel: 15 arrows inside; at most 14"]
+    flat = {(rooms[i], rooms[j]) for i in range(4) for j in range(4, 8)}
+    assert problems(set(rooms[:8]), flat) == ["hwmodel: 16 arrows inside; at most 15"]

@@ -1,129 +1,186 @@
-// Gravity and excess of one lane: paper law, reading `text`, without heat (docs/automaton.md, section 8).
+// Gravity and the paper's excess of one lane (docs/automaton.md, section 8), under both readings of the
+// energy. Numbers tell how many registers a value is behind the cell q that came, which meets the cell p below
+// it. The cell p is complete then, and leaves.
 //
-// A column comes from below. A slot holds its cell q, and gives the cell p below it, which is complete then.
-// What falls depends on amounts alone. So their loop runs three registers ahead of that of energy, and no
-// product lies in a loop:
+// No product lies in a loop, but for heat that climbs. What falls depends on amounts alone:
 //
 //   a_q' = max(a_q - ready, a_q - ONE + a_p)   falling,   min(a_q - ONE + a_p, AMAX)   climbing
 //
-// `ready` depends on q as it came. The product with beta only reaches p, which leaves.
+// `ready` depends on q as it came. Energy follows seven registers later and knows the flow. Heat that falls is
+// mixed outside of all loops. Heat that climbs needs a division before the next cell can come, so it waits.
 module gravity_lane (
-    input  logic                  clk,
-    input  logic                  en,     // all slots move on
-    input  logic                  v3,     // the slot in register 3 is no bubble
-    input  logic                  f3,     // it has no cell below it
-    input  logic                  v6,     // the slot in register 6 is no bubble
-    input  voxmelt_pkg::falling_t q,
-    input  logic [16:0]           factor,
-    input  logic [16:0]           wall_factor,
-    input  logic [15:0]           minimum,
-    input  logic [18:0]           beta,
-    output voxmelt_pkg::cell_t    p       // 10 registers behind q
+    input  logic               clk,
+    input  logic               rst,
+    input  logic               move,
+    input  voxmelt_pkg::cell_t cell_in,
+    input  logic               first,        // no cell of its column came before it
+    input  logic               top,          // nothing comes above it
+    input  logic               live13,       // a token, and no bits from before the reset, is in register 13
+    input  logic [15:0]        dither13,     // of the step of the cell in register 13
+    input  logic [15:0]        dither18,
+    input  logic               hot,
+    input  logic               printed,      // the reading of the energy's equations
+    input  logic [16:0]        factor,
+    input  logic [16:0]        wall_factor,
+    input  logic [15:0]        minimum,
+    input  logic [15:0]        hang,
+    input  logic [18:0]        beta,
+    output logic               works,        // no move is possible
+    output voxmelt_pkg::cell_t cell_out      // p, 39 registers behind q
 );
-  // Registers 1 to 3 prepare what q is ready to give.
-  voxmelt_pkg::cell_t q1, q2, q3;
-  logic [32:0] product1;
-  logic [15:0] ready2;
-  logic        holds3;
-  logic [16:0] left3;
-  logic signed [17:0] above3;
-  wire [16:0] factor0 = q.beside_wall ? wall_factor : factor;
-  wire [15:0] part1 = 16'(product1 >> 16);  // less than 2^16, as a factor is at most 1
-  wire [16:0] want1 = 17'(part1) + 17'(minimum);
+  // Registers 1 to 6 prepare what q is ready to give.
+  voxmelt_pkg::cell_t cell1, cell2, cell5, cell6;
+  logic first1, top1, stays2, hangs2, first5, stays5, hangs5, first6, hangs6, holds6;
+  logic [16:0] want5;
+  logic [16:0] left6;
+  logic signed [17:0] above6;
+  logic signed [34:0] part4;
+  wire covered1 = cell1.beside_wall | top1 | cell_in.state[1];
+  product times_factor (
+      .clk(clk), .en(move), .a($signed({2'b0, cell1.amount})), .b(cell1.beside_wall ? wall_factor : factor),
+      .p(part4));
+  delay #(.WIDTH(70), .N(3)) prepares (
+      .clk(clk), .en(move), .d({first2, stays2, hangs2, cell2}), .q({first5, stays5, hangs5, cell5}));
+  logic first2;
+  wire [15:0] ready5 = stays5 ? 16'd0 : want5 > 17'(cell5.amount) ? cell5.amount : want5[15:0];
 
-  // Register 4: the loop of amounts. `low` is the present amount of p.
-  voxmelt_pkg::cell_t q4;
-  logic [15:0] low, low4, high4;
-  logic        low_blocked, down4, up4;
-  wire signed [17:0] sum = above3 + $signed({2'b0, low});  // a_q - ONE + a_p
-  wire pair = ~f3 & ~low_blocked & ~q3.state[1];
-  wire down = pair & holds3 & (low < voxmelt_pkg::ONE);
-  wire up = pair & ~down & (low > voxmelt_pkg::ONE);
-  wire [15:0] fallen = sum > $signed({1'b0, left3}) ? sum[15:0] : left3[15:0];
+  // Register 7: the loop of amounts. `low` is the present amount of p.
+  voxmelt_pkg::cell_t cell7, cell8;
+  logic [15:0] low, low7, high7;
+  logic low_blocked, low_empty, down7, up7;
+  wire signed [17:0] sum = above6 + $signed({2'b0, low});  // a_q - ONE + a_p
+  wire pair = ~first6 & ~low_blocked & ~cell6.state[1];
+  wire down = pair & holds6 & (low < voxmelt_pkg::ONE) & ~(hangs6 & low_empty);
+  wire up = pair & (low > voxmelt_pkg::ONE);
+  wire [15:0] fallen = sum > $signed({1'b0, left6}) ? sum[15:0] : left6[15:0];
   wire [15:0] risen = sum > $signed({2'b0, voxmelt_pkg::AMAX}) ? voxmelt_pkg::AMAX : sum[15:0];
-  wire [15:0] high = down ? fallen : up ? risen : q3.amount;
+  wire [15:0] high = down ? fallen : up ? risen : cell6.amount;
 
-  // Registers 5 and 6: the flow, and the energy that moves and stays.
-  logic [15:0] energy5, flow5, low5, flow6, low6, moved6, stays6;
-  logic [1:0]  state5, state6;
-  logic        down5, up5, up6;
-  wire [15:0] flow = down4 ? q4.amount - high4 : up4 ? high4 - q4.amount : 16'd0;
-  wire [15:0] rest = energy5 > flow5 ? energy5 - flow5 : 16'd0;
+  // Registers 8 to 13: the flow, the energy that goes with it, and what arrives of that.
+  logic [15:0] flow8, low8, high8, moved9, stays9, flow9, low9, after9, high9;
+  logic down8, up8, down9, up9;
+  voxmelt_pkg::cell_t cell9, cell12, cell13;
+  logic down12, up12, down13, up13;
+  logic [15:0] stays12, flow12, low12, after12, high12, stays13, flow13, low13, after13, high13, gain13;
+  logic signed [36:0] gain12;
+  product #(.B(19)) times_beta (.clk(clk), .en(move), .a($signed({2'b0, moved9})), .b(beta), .p(gain12));
+  delay #(.WIDTH(67 + 82), .N(3)) waits_for_beta (
+      .clk(clk), .en(move), .d({down9, up9, stays9, flow9, low9, after9, high9, cell9}),
+      .q({down12, up12, stays12, flow12, low12, after12, high12, cell12}));
+  wire [18:0] whole_gain12 = gain12[34:16];
+  wire [15:0] most12 = printed ? cell12.energy : voxmelt_pkg::AMAX;
 
-  // Register 7: the loop of energy. `held` is the present energy of p.
-  logic [15:0] held, held7, low7, moved7;
-  logic [1:0]  below, state7;
-  wire [15:0] climbs = ~up6 ? 16'd0 : held < flow6 ? held : flow6;
+  // Register 14: the loops of energy and heat. `held` is the present energy of p, `warmth` its present heat.
+  logic [15:0] held, warmth, mixed;
+  logic [1:0] below;
+  logic below_set;
+  wire [15:0] room = after13 - held;
+  wire [15:0] gained = ~down13 ? 16'd0 : gain13 < room ? gain13 : room;
+  wire [15:0] climbs = ~up13 ? 16'd0 : held < flow13 ? held : flow13;
+  wire [15:0] left_printed = cell13.energy - gained;
+  wire [15:0] stays = ~(printed & down13) ? stays13 : left_printed < high13 ? left_printed : high13;
+  wire turns = hot & live13 & up13 & (flow13 != 16'd0);
+  serial_mixer climbing (
+      .clk(clk), .rst(rst), .start(turns), .move(move), .amount(cell13.amount), .heat(cell13.heat), .flow(flow13),
+      .flow_heat(warmth), .dither(dither13), .works(works), .mixed(mixed));
 
-  // Registers 8 to 10: what p gains.
-  logic [34:0] product8;
-  logic [15:0] held8, low8, room8, held9, low9, room9;
-  logic [1:0]  state8, state9;
-  logic [18:0] gain9;
-  wire blocked9 = state9[1];
-  wire empty9 = ~blocked9 & (low9 == 16'd0);
-  wire [15:0] gained9 = gain9 < 19'(room9) ? gain9[15:0] : room9;
+  // From register 15 on: the heat of p and of what fell.
+  logic [15:0] energy14, amount14, warmth14, low14, flow14, heat14;
+  logic [1:0] state14;
+  logic set14, mixes14;
+  logic signed [34:0] here17, fallen17;
+  logic [31:0] content18;
+  logic [15:0] amount18, heat38, energy38, amount38, warmth38;
+  logic [1:0] state38;
+  logic set38, mixes38;
+  product content_here (
+      .clk(clk), .en(move), .a($signed({2'b0, low14})), .b({1'b0, warmth14}), .p(here17));
+  product content_fallen (
+      .clk(clk), .en(move), .a($signed({2'b0, flow14})), .b({1'b0, heat14}), .p(fallen17));
+  delay #(.WIDTH(16), .N(4)) amounts (.clk(clk), .en(move), .d(amount14), .q(amount18));
+  mixer falling (
+      .clk(clk), .en(move), .content(content18), .amount(amount18), .dither(dither18), .heat(heat38));
+  delay #(.WIDTH(52), .N(24)) waits_for_heat (
+      .clk(clk), .en(move), .d({mixes14, set14, state14, warmth14, energy14, amount14}),
+      .q({mixes38, set38, state38, warmth38, energy38, amount38}));
+  wire blocked38 = state38[1];
+  wire empty38 = ~blocked38 & (amount38 == 16'd0);
 
   always_ff @(posedge clk)
-    if (en) begin
-      q1 <= {q.energy, q.amount, q.state};
-      product1 <= 33'(q.amount) * 33'(factor0);
+    if (move) begin
+      cell1 <= cell_in;
+      first1 <= first;
+      top1 <= top;
+      cell2 <= cell1;
+      first2 <= first1;
+      stays2 <= cell1.is_set & covered1;
+      hangs2 <= (cell1.amount < hang) & covered1;
 
-      q2 <= q1;
-      ready2 <= want1 > 17'(q1.amount) ? q1.amount : want1[15:0];
+      want5 <= 17'(part4[31:16]) + {1'b0, minimum};
+      cell6 <= cell5;
+      first6 <= first5;
+      hangs6 <= hangs5;
+      holds6 <= cell5.amount != 16'd0;
+      left6 <= 17'(cell5.amount) - 17'(ready5);
+      above6 <= $signed({2'b0, cell5.amount}) - $signed({2'b0, voxmelt_pkg::ONE});
 
-      q3 <= q2;
-      holds3 <= q2.amount != 16'd0;
-      left3 <= 17'(q2.amount) - 17'(ready2);
-      above3 <= $signed({2'b0, q2.amount}) - $signed({2'b0, voxmelt_pkg::ONE});
+      cell7 <= cell6;
+      down7 <= down;
+      up7 <= up;
+      high7 <= high;
+      low7 <= low;
+      low <= high;
+      low_empty <= high == 16'd0;
+      low_blocked <= cell6.state[1];
 
-      q4 <= q3;
-      down4 <= down;
-      up4 <= up;
-      high4 <= high;
-      low4 <= low;
-      if (v3) begin
-        low <= high;
-        low_blocked <= q3.state[1];
-      end
-
-      energy5 <= q4.energy;
-      state5 <= q4.state;
-      down5 <= down4;
-      up5 <= up4;
-      flow5 <= flow;
-      low5 <= down4 ? low4 + flow : low4 - flow;
-
-      state6 <= state5;
-      up6 <= up5;
-      flow6 <= flow5;
-      low6 <= low5;
-      moved6 <= ~down5 ? 16'd0 : energy5 < flow5 ? energy5 : flow5;
-      stays6 <= ~down5 ? energy5 : rest;
-
-      held7 <= held - climbs;
-      low7 <= low6;
-      moved7 <= moved6;
-      state7 <= below;
-      if (v6) begin
-        held <= stays6 + climbs;
-        below <= state6;
-      end
-
-      product8 <= 35'(moved7) * 35'(beta);
-      held8 <= held7;
+      cell8 <= cell7;
+      down8 <= down7;
+      up8 <= up7;
       low8 <= low7;
-      room8 <= low7 - held7;
-      state8 <= state7;
+      high8 <= high7;
+      flow8 <= down7 ? cell7.amount - high7 : up7 ? high7 - cell7.amount : 16'd0;
 
-      gain9 <= 19'(product8 >> 16);
-      held9 <= held8;
+      cell9 <= cell8;
+      down9 <= down8;
+      up9 <= up8;
+      flow9 <= flow8;
       low9 <= low8;
-      room9 <= room8;
-      state9 <= state8;
+      high9 <= high8;
+      after9 <= up8 ? low8 - flow8 : low8 + flow8;
+      moved9 <= ~down8 ? 16'd0 : cell8.energy < flow8 ? cell8.energy : flow8;
+      stays9 <= ~down8 ? cell8.energy : cell8.energy < flow8 ? 16'd0 : cell8.energy - flow8;
 
-      p.amount <= low9;
-      p.energy <= held9 + gained9;  // 0 if the cell is empty, as no energy exceeds its amount
-      p.state <= blocked9 ? state9 : empty9 ? voxmelt_pkg::AIR : voxmelt_pkg::LIQUID;
+      cell13 <= cell12;
+      down13 <= down12;
+      up13 <= up12;
+      stays13 <= stays12;
+      flow13 <= flow12;
+      low13 <= low12;
+      high13 <= high12;
+      after13 <= after12;
+      gain13 <= whole_gain12 > 19'(most12) ? most12 : whole_gain12[15:0];
+
+      energy14 <= held + gained - climbs;
+      amount14 <= after13;
+      state14 <= below;
+      set14 <= below_set;
+      warmth14 <= warmth;
+      low14 <= low13;
+      flow14 <= flow13;
+      heat14 <= cell13.heat;
+      mixes14 <= down13 & (flow13 != 16'd0);
+      held <= stays + climbs;
+      warmth <= turns ? mixed : cell13.heat;
+      below <= cell13.state;
+      below_set <= cell13.is_set;
+
+      content18 <= here17[31:0] + fallen17[31:0];
+
+      cell_out <= '0;
+      cell_out.amount <= amount38;
+      cell_out.energy <= empty38 ? 16'd0 : energy38;
+      cell_out.heat <= empty38 | ~hot ? 16'd0 : mixes38 ? heat38 : warmth38;
+      cell_out.state <= blocked38 ? state38 : empty38 ? voxmelt_pkg::AIR : voxmelt_pkg::LIQUID;
+      cell_out.is_set <= set38;
     end
 endmodule

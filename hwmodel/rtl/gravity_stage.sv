@@ -1,73 +1,51 @@
-// The stage gravity: P lanes behind ready and valid. Tokens come column by column, the lowest first.
-//
-// A cell leaves when the one above it comes. Nothing is above the last cell of a column, so a slot without a
-// cell pushes it out if no token comes. So the stage empties itself at the end of a pass, and at any stall.
+// The stage gravity: P lanes behind ready and valid. Tokens come column by column, the lowest first. Heat that
+// climbs in one lane holds all of them.
 module gravity_stage #(
     parameter P = 1
 ) (
-    input  logic            clk,
-    input  logic            rst,
-    input  logic            in_valid,
-    output logic            in_ready,
-    input  logic [P*35-1:0] in_cells,   // voxmelt_pkg::falling_t, lane 0 lowest
-    output logic            out_valid,
-    input  logic            out_ready,
-    output logic [P*34-1:0] out_cells,  // voxmelt_pkg::cell_t
-    // These stay as they are while tokens are under way.
-    input  logic [11:0]     top,        // height of the last cell of a column
-    input  logic [16:0]     factor,
-    input  logic [16:0]     wall_factor,
-    input  logic [15:0]     minimum,
-    input  logic [18:0]     beta
+    input  logic                clk,
+    input  logic                rst,
+    input  logic                in_valid,
+    output logic                in_ready,
+    input  logic [P*67-1:0]     in_cells,   // voxmelt_pkg::cell_t, lane 0 lowest
+    output logic                out_valid,
+    input  logic                out_ready,
+    output logic [P*67-1:0]     out_cells,
+    input  logic                follows,
+    input  logic [31:0]         step,
+    input  voxmelt_pkg::place_t last,
+    input  logic [23:0]         lag,
+    input  logic                hot,
+    input  logic                printed,
+    input  logic [16:0]         factor,
+    input  logic [16:0]         wall_factor,
+    input  logic [15:0]         minimum,
+    input  logic [15:0]         hang,
+    input  logic [18:0]         beta,
+    output logic                holds        // a serial divider works
 );
-  localparam LATENCY = 10;
+  logic [P-1:0] works;
+  assign holds = |works;
+  logic move, here, overlaps;
+  voxmelt_pkg::place_t came, left;
+  logic [31:0] step_came, step_left;
+  logic [23:0] fill;
+  logic drained;
+  stage_control control (
+      .clk(clk), .rst(rst), .in_valid(in_valid), .in_ready(in_ready), .out_valid(out_valid),
+      .out_ready(out_ready), .hold(holds), .follows(follows), .step(step), .last(last), .lag(lag),
+      .move(move), .here(here), .overlaps(overlaps), .came(came), .left(left), .step_came(step_came),
+      .step_left(step_left), .fill(fill), .drained(drained));
 
-  // A bit for each register that a slot passes. `gives` tells if a cell leaves with it.
-  logic [LATENCY:1] valid;
-  logic [3:1] first;        // up to the loop of amounts
-  logic [6:1] ghost;        // up to the loop of energy
-  logic [LATENCY:7] gives;  // from there on
-  logic [11:0] y;
-  logic pending;  // the last cell of a column waits
-  logic below;    // a cell waits in the loop of energy
-
-  wire en = ~out_valid | out_ready;
-  assign in_ready = en;
-  assign out_valid = valid[LATENCY] & gives[LATENCY];
-
-  always_ff @(posedge clk)
-    if (rst) begin
-      valid <= '0;
-      y <= 12'd0;
-      pending <= 1'b0;
-      below <= 1'b0;
-    end else if (en) begin
-      valid <= {valid[LATENCY-1:1], in_valid | pending};
-      pending <= in_valid & (y == top);
-      if (in_valid) y <= y == top ? 12'd0 : y + 12'd1;
-      if (valid[6]) below <= ~ghost[6];
-    end
-
-  always_ff @(posedge clk)
-    if (en) begin
-      first <= {first[2:1], y == 12'd0};
-      ghost <= {ghost[5:1], ~in_valid};
-      gives <= {gives[LATENCY-1:7], below};
-    end
-
+  logic [15:0] dither, dither13, dither18;
+  dither_unit reverse (.step(step_came), .dither(dither));
+  delay #(.WIDTH(16), .N(13)) of_loop (.clk(clk), .en(move), .d(dither), .q(dither13));
+  delay #(.WIDTH(16), .N(5)) of_mixer (.clk(clk), .en(move), .d(dither13), .q(dither18));
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     gravity_lane gravity (
-        .clk(clk),
-        .en(en),
-        .v3(valid[3]),
-        .f3(first[3]),
-        .v6(valid[6]),
-        .q(in_cells[lane*35+:35]),
-        .factor(factor),
-        .wall_factor(wall_factor),
-        .minimum(minimum),
-        .beta(beta),
-        .p(out_cells[lane*34+:34])
-    );
+        .clk(clk), .rst(rst), .move(move), .cell_in(in_cells[lane*67+:67]), .first(~here | (came.y == 12'd0)),
+        .top(came.y == last.y), .live13(fill >= 24'd13), .dither13(dither13), .dither18(dither18), .hot(hot), .printed(printed),
+        .factor(factor), .wall_factor(wall_factor), .minimum(minimum), .hang(hang), .beta(beta),
+        .works(works[lane]), .cell_out(out_cells[lane*67+:67]));
   end
 endmodule

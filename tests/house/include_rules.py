@@ -59,6 +59,8 @@ ALLOWED = {
     "hwmodel/check/shrink": [STATE, "kernel/run/io", "kernel/scene", "kernel/scene/text"],
     "hwmodel/memory": [FABRIC, "kernel/scene/text"],
     PIPELINE: [FABRIC, "hwmodel/check/token_source.h", PARAMETERS, STATE, f"{STEP}/phase.h"],
+    "hwmodel/rtl/host": [PIPELINE],
+    "hwmodel/rtl/write": [PIPELINE, STATE, "hwmodel/rtl/host"],
     "hwmodel/pipeline/streams": [FABRIC, PIPELINE, "hwmodel/memory"],
     "hwmodel/pipeline/time": [PIPELINE],
     "hwmodel/pipeline/faults": [FABRIC, "hwmodel/check", PIPELINE],
@@ -100,7 +102,7 @@ ALLOWED = {
     "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],
     "library/journal": ["include/voxmelt", "kernel/scene/scene.h"],
     "app": ["library/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
-            "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine",
+            "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "hwmodel/rtl/host", "hwmodel/rtl/write", "hwmodel/check/channel_trace.h",
             "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
@@ -122,7 +124,7 @@ THIRD_PARTY = {
     "benchmark/": ["bench"],
     "nlohmann/": ["kernel/scene/mesh_file", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/memory", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
                   "report/bench", "report/hardware", "app", "app/view"],
-    "fmt/": ["kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene/mesh_file", "kernel/scene/voxel_file", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
+    "fmt/": ["hwmodel/rtl/write", "kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene/mesh_file", "kernel/scene/voxel_file", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
              "report/hardware", "app", "library/journal", "app/view"],
 }

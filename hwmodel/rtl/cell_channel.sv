@@ -1,0 +1,66 @@
+// A channel between two stages. It stores what the scene has of a cell: heat, and the side bands of its
+// producer.
+module cell_channel #(
+    parameter P = 1,
+    parameter HOT = 1,
+    parameter AXES = 0,
+    parameter PATTERN = 0,
+    parameter WALL = 0,
+    parameter TOUCHES = 0,
+    parameter SET = 0,
+    parameter DEPTH = 4
+) (
+    input  logic            clk,
+    input  logic            rst,
+    input  logic            in_valid,
+    output logic            in_ready,
+    input  logic [P*67-1:0] in_cells,
+    output logic            out_valid,
+    input  logic            out_ready,
+    output logic [P*67-1:0] out_cells
+);
+  localparam CELL = HOT != 0 ? 50 : 34;
+  localparam AT_PATTERN = CELL + 2 * AXES, AT_WALL = AT_PATTERN + 8 * PATTERN, AT_TOUCHES = AT_WALL + WALL,
+             AT_SET = AT_TOUCHES + TOUCHES, WORD = AT_SET + SET;
+  logic [P*WORD-1:0] in_word, out_word;
+  channel #(.WIDTH(P * WORD), .DEPTH(DEPTH)) tokens (
+      .clk(clk), .rst(rst), .in_valid(in_valid), .in_ready(in_ready), .in_word(in_word),
+      .out_valid(out_valid), .out_ready(out_ready), .out_word(out_word));
+
+  for (genvar lane = 0; lane < P; lane++) begin : lanes
+    wire [66:0] from = in_cells[lane*67+:67];
+    wire [WORD-1:0] word = out_word[lane*WORD+:WORD];
+    assign in_word[lane*WORD+:CELL] = from[CELL-1:0];
+    assign out_cells[lane*67+:54] = 54'(word[CELL-1:0]);
+    if (AXES != 0) begin : axes
+      assign in_word[lane*WORD+CELL+:2] = from[55:54];
+      assign out_cells[lane*67+54+:2] = word[CELL+:2];
+    end else begin : no_axes
+      assign out_cells[lane*67+54+:2] = 2'd0;
+    end
+    if (PATTERN != 0) begin : pattern
+      assign in_word[lane*WORD+AT_PATTERN+:8] = from[63:56];
+      assign out_cells[lane*67+56+:8] = word[AT_PATTERN+:8];
+    end else begin : no_pattern
+      assign out_cells[lane*67+56+:8] = 8'd0;
+    end
+    if (WALL != 0) begin : wall
+      assign in_word[lane*WORD+AT_WALL] = from[64];
+      assign out_cells[lane*67+64] = word[AT_WALL];
+    end else begin : no_wall
+      assign out_cells[lane*67+64] = 1'b0;
+    end
+    if (TOUCHES != 0) begin : touches
+      assign in_word[lane*WORD+AT_TOUCHES] = from[65];
+      assign out_cells[lane*67+65] = word[AT_TOUCHES];
+    end else begin : no_touches
+      assign out_cells[lane*67+65] = 1'b0;
+    end
+    if (SET != 0) begin : is_set
+      assign in_word[lane*WORD+AT_SET] = from[66];
+      assign out_cells[lane*67+66] = word[AT_SET];
+    end else begin : not_set
+      assign out_cells[lane*67+66] = 1'b0;
+    end
+  end
+endmodule

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""`voxmelt verify --rtl`: stages in SystemVerilog in the places of their models, and what is refused.
+
+  rtl_test.py PROGRAM
+"""
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import SMALL, voxmelt, write
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+class Rtl(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        asked = cls.verify("lesson_gravity", "--rtl", "all")
+        if "built without Verilator" in asked.stderr:
+            raise unittest.SkipTest("skipped: this program was built without Verilator")
+
+    @staticmethod
+    def verify(scene, *options, lanes=4):
+        return voxmelt("verify", SCENES / f"{scene}.toml", "--steps", 2, "--set", f"hw.lanes={lanes}", *options)
+
+    def test_every_stage_of_a_scene(self):
+        for scene, first, lanes in ("lesson_oven", 300, 4), ("lesson_spread", 100, 1), ("proving_ground", 40, 4):
+            done = self.verify(scene, "--from", first, "--rtl", "all", lanes=lanes)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertRegex(done.stdout, r"\d{4,} cells compared .*: no difference; digest [0-9a-f]{16}")
+            self.assertRegex(done.stdout, r"\d{3,} cycles beside the models: both sides of every channel did the same")
+
+    def test_one_of_them_gives_what_the_models_give(self):
+        digest = re.compile(r"digest ([0-9a-f]{16})")
+        models = digest.search(self.verify("lesson_oven", "--from", 300).stdout)[1]
+        for stages in "gravity", "melt,exchange":
+            done = self.verify("lesson_oven", "--from", 300, "--rtl", stages)
+            self.assertEqual((done.returncode, digest.search(done.stdout)[1]), (0, models))
+
+    def test_what_is_refused(self):
+        for options, words in (
+                (("--rtl", "gravit"), "error: --rtl gravit: of the stages of this scene, these are written in "
+                                      "SystemVerilog: conduction, convection, exchange, melt, gravity, pattern, apply"),
+                (("--rtl", "all", "--plant", "gravity-flow"), "error: --rtl: a fault is planted in a model"),
+                (("--rtl", "all", "--machine"), "error: --rtl: only of the pipeline alone")):
+            done = self.verify("lesson_oven", *options)
+            self.assertEqual((done.returncode, done.stderr.strip()), (2, words), options)
+        done = self.verify("lesson_oven", "--rtl", "all", lanes=3)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"error: --rtl: stages in SystemVerilog are compiled for [0-9, ]+ lanes, not for 3")
+        done = self.verify("paper_literal", "--rtl", "all")
+        self.assertEqual((done.returncode, done.stderr.strip()),
+                         (2, "error: --rtl: apply in SystemVerilog: every direction has the same share"))
+
+    def test_a_grid_that_is_too_low(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = write(folder, SMALL.replace("size = [12, 10, 12]", "size = [16, 5, 8]"))
+            done = voxmelt("verify", scene, "--steps", 1, "--set", "hw.lanes=4", "--rtl", "all")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn("a column of 5 cells and a plane of 20 tokens are too short for its registers", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

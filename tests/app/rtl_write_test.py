@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""`voxmelt rtl`: the folder that it writes passes its own test bench, in a place without voxmelt.
+
+  rtl_write_test.py PROGRAM          one small pipeline
+  rtl_write_test.py PROGRAM --large  three of committed scenes (slow)
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import SMALL, voxmelt, write
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+def make(folder, target="test", timeout=1500):
+    """Runs make with the tools of the system alone."""
+    return subprocess.run(["make", "-C", str(folder), target], capture_output=True, text=True, timeout=timeout,
+                          env={"PATH": "/usr/bin:/bin"})
+
+
+class Written(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def written(self, scene, *options):
+        done = voxmelt("rtl", scene, "--out", self.folder / "rtl", *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return shutil.move(self.folder / "rtl", self.folder / "elsewhere")
+
+    def passes(self, folder, tokens):
+        done = make(folder)
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+        said = re.findall(r"(\d+) tokens, no difference; (\d+) cycles", done.stdout)
+        self.assertEqual([int(n) for n, _ in said], [tokens, tokens], "without and with stalls")
+        self.assertGreater(int(said[1][1]), int(said[0][1]), "stalls cost cycles")
+
+
+@unittest.skipUnless(shutil.which("verilator"), "skipped: `apt-get install verilator`")
+class Small(Written):
+    def test_it_passes_its_test_bench_and_a_wrong_vector_does_not(self):
+        scene = write(self.folder, SMALL)
+        folder = Path(self.written(scene, "--from", 8, "--passes", 3, "--set", "hw.lanes=1", "--set", "hw.cascade=2",
+                                   "--set", "pieces.fall=false"))
+        self.passes(folder, 3 * 12 * 10 * 12)
+        lines = (folder / "out.hex").read_text().splitlines()
+        lines[700] = f"{int(lines[700], 16) ^ 4:0{len(lines[700])}x}"
+        (folder / "out.hex").write_text("\n".join(lines) + "\n")
+        done = make(folder)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("token 700 differs", done.stdout)
+
+    @unittest.skipUnless(shutil.which("yosys"), "skipped: `apt-get install yosys`")
+    def test_yosys_reads_it_without_a_warning(self):
+        folder = self.written(write(self.folder, SMALL), "--set", "hw.lanes=2", "--set", "hw.cascade=1")
+        sources = ["voxmelt_pkg.sv"] + sorted(f.name for f in Path(folder).glob("*.sv")
+                                              if f.name not in ("voxmelt_pkg.sv", "testbench.sv"))
+        done = subprocess.run(["yosys", "-q", "-e", ".*", "-p", f"read_verilog -sv {' '.join(sources)}; "
+                               "hierarchy -check -top pipeline; proc; check -assert"],
+                              cwd=folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout[-2000:])
+
+
+class Refused(Written):
+    def test_what_cannot_be_written(self):
+        for scene, options, words in (
+                ("lesson_tubes", (), "is not written in SystemVerilog"),
+                ("paper_literal", (), "apply: every direction has the same share"),
+                ("lesson_spread", ("--set", "hw.lanes=3"), "hw.lanes is 1, 2, 4, 8 or 16"),
+                ("cello", ("--set", "hw.cascade=2"), "where pieces fall, hw.cascade is 1")):
+            done = voxmelt("rtl", SCENES / f"{scene}.toml", "--out", self.folder / "rtl", *options)
+            self.assertEqual(done.returncode, 2, scene)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.folder / "rtl").exists())
+        done = voxmelt("rtl", SCENES / "cello.toml")
+        self.assertEqual((done.returncode, done.stderr), (2, "error: --out DIR: the folder that is written must be named\n"))
+
+
+@unittest.skipUnless(shutil.which("verilator"), "skipped: `apt-get install verilator`")
+class Large(Written):
+    def test_radiation_and_pieces(self):
+        self.check("bunny_small", 500, passes=1, lanes=8, cascade=1)
+
+    def test_air_vents_freezing_and_drains(self):
+        self.check("proving_ground", 30, passes=2, lanes=4, cascade=2)
+
+    def test_one_lane_without_heat(self):
+        self.check("lesson_spread", 20, passes=2, lanes=1, cascade=3)
+
+    def check(self, scene, first, passes, lanes, cascade):
+        path = SCENES / f"{scene}.toml"
+        x, y, z = map(int, re.search(r"size = \[(\d+), (\d+), (\d+)\]", path.read_text()).groups())
+        folder = self.written(path, "--from", first, "--passes", passes, "--set", f"hw.lanes={lanes}",
+                              "--set", f"hw.cascade={cascade}")
+        self.passes(folder, passes * -(-x // lanes) * y * z)
+
+
+if __name__ == "__main__":
+    cases = [Large] if "--large" in sys.argv else [Small, Refused]
+    tests = unittest.TestSuite(unittest.TestLoader().loadTestsFromTestCase(case) for case in cases)
+    sys.exit(not unittest.TextTestRunner(verbosity=2).run(tests).wasSuccessful())

@@ -1,0 +1,133 @@
+// Stages in SystemVerilog, as Verilator compiles them, stand in the places of their models. Every token that
+// they give is compared with the reference's, in hostile worlds, with and without stalls.
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hwmodel/check/channel_trace.h"
+#include "hwmodel/pipeline/model/pipeline.h"
+#include "hwmodel/rtl/host/rtl_stage.h"
+#include "tests/hwmodel/pipeline/check/lockstep_world.h"
+
+namespace voxmelt::hwmodel {
+namespace {
+
+// Counts what worlds had, so that a test knows that it looked at something.
+struct Seen {
+  int worlds = 0, refused = 0;
+  int overlaps = 0;                           // trains of several passes
+  int holds = 0;                              // worlds in which a serial divider held a stage
+  std::map<std::string, std::int64_t> cells;  // by stage that stood in
+};
+
+// Runs a machine with these stages in lock-step with the software, and notes what its channels do.
+VerifyReport run(const Start& start, const Configuration& c, std::uint32_t steps, const StageMaker& make,
+                 ChannelTrace& trace) {
+  VerifyOptions options;
+  options.steps = steps;
+  options.configuration = c;
+  options.machine = [&] {
+    auto pipeline = std::make_unique<Pipeline>(start.parameters, start.volume.grid, c, make);
+    pipeline->probe(&trace);
+    return pipeline;
+  };
+  return verify(start.parameters, start.volume, start.step, run::implementations().widest(), {}, options);
+}
+
+void agree(const Start& start, Configuration c, std::uint32_t steps, const std::vector<std::string>& only,
+           int seed, Seen& seen) {
+  c.registers = true;
+  const Design design = design_of(start.parameters, start.volume.grid, c);
+  if (const std::string refusal = rtl_refusal(design, only); !refusal.empty()) {
+    ++seen.refused;
+    return;
+  }
+  ChannelTrace circuits, models;
+  const VerifyReport report = run(start, c, steps, rtl_stages(only, seed), circuits);
+  ASSERT_EQ(report.mismatch, nullptr) << start.name << ", " << name_of(c) << ", grid " << start.volume.grid.x
+                                      << " x " << start.volume.grid.y << " x " << start.volume.grid.z << ":\n"
+                                      << text_of(*report.mismatch);
+  // Both sides of every channel do the same in every cycle, whatever stalls.
+  const VerifyReport wanted = run(start, c, steps, make_stage, models);
+  ASSERT_EQ(wanted.mismatch, nullptr) << text_of(*wanted.mismatch);
+  const auto difference = circuits.difference(models);
+  ASSERT_FALSE(difference) << start.name << ", " << name_of(c) << ": cycle " << difference->cycle
+                           << ", channel " << difference->channel;
+  ASSERT_GT(circuits.cycles(), 0);
+  for (const TrainReport& train : report.trains) seen.overlaps += train.passes > 1;
+  seen.holds += wanted.cycles != wanted.predicted_cycles && c.stall_seed == 0;
+  ++seen.worlds;
+  const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
+  for (const StageKind kind : stages_of_step(design))
+    if (rtl_has(kind) && (only.empty() || std::find(only.begin(), only.end(), name_of(kind)) != only.end()))
+      seen.cells[std::string(name_of(kind))] += cells * steps;
+}
+
+Start world(std::uint64_t seed, int lanes) {
+  worlds::Random random(seed * 31 + 5);
+  const state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
+                         random.one_in(3) ? random.between(8, 14) : random.between(1, 5)};
+  Start start = hostile_start(seed, rule::Law::paper, grid);
+  start.parameters.flow.paper.use_table &= random.one_in(4);
+  if (random.between(0, 3) != 0) start.parameters.flow.paper.reading = rule::EnergyReading::text;
+  return start;
+}
+
+void one_stage(StageKind kind, int worlds) {
+  if (!rtl_has(kind)) GTEST_SKIP() << "this program was built without Verilator";
+  Seen seen;
+  const std::string name(name_of(kind));
+  for (int seed = 0; seed < worlds && !testing::Test::HasFatalFailure(); ++seed) {
+    const int lanes = rtl_lanes()[seed % rtl_lanes().size()];
+    Start start = world(static_cast<std::uint64_t>(seed), lanes);
+    if (kind == StageKind::walls) {  // it is there without heat
+      if (start.parameters.heat.enabled) continue;
+      start.parameters.flow.fall.wall_factor = 8000;
+    }
+    if (kind == StageKind::fall)
+      start = pieces_start(static_cast<std::uint64_t>(seed), rule::Law::paper, start.volume.grid);
+    if (kind == StageKind::source && !start.parameters.has_openings()) continue;
+    const std::uint64_t stalls = seed % 3 == 0 ? 0 : static_cast<std::uint64_t>(seed);
+    agree(start, {lanes, 1 + seed % 2, 1 + seed % 3, stalls}, 5, {name}, seed + 1, seen);
+  }
+  EXPECT_GT(seen.worlds, 8);
+  EXPECT_GT(seen.cells[name], 0);
+  if (kind == StageKind::fall) return;  // the host finds pieces before each step
+  EXPECT_GT(seen.overlaps, 0);
+}
+
+// All stages that there are stand in for their models at once.
+void all_stages(int lanes, int worlds) {
+  const std::vector<int> there = rtl_lanes();
+  if (std::find(there.begin(), there.end(), lanes) == there.end())
+    GTEST_SKIP() << "this program was built without Verilator, or not for " << lanes << " lanes";
+  Seen seen;
+  for (int seed = 0; seed < worlds && !testing::Test::HasFatalFailure(); ++seed) {
+    const std::uint64_t stalls = seed % 3 == 0 ? 0 : static_cast<std::uint64_t>(seed);
+    agree(world(static_cast<std::uint64_t>(seed) + 500, lanes), {lanes, 1 + seed % 3, 1 + seed % 4, stalls},
+          6, {}, seed + 1, seen);
+  }
+  EXPECT_GT(seen.worlds, 8);
+  EXPECT_GE(seen.cells.size(), 7u);
+  EXPECT_GT(seen.holds, 1);
+  EXPECT_GT(seen.overlaps, 1);
+}
+TEST(AllStagesInRtl, OneLane) { all_stages(1, 40); }
+TEST(AllStagesInRtl, FourLanes) { all_stages(4, 40); }
+
+TEST(StagesInRtl, Walls) { one_stage(StageKind::walls, 300); }
+TEST(StagesInRtl, Fall) { one_stage(StageKind::fall, 28); }
+TEST(StagesInRtl, Source) { one_stage(StageKind::source, 80); }
+TEST(StagesInRtl, Conduction) { one_stage(StageKind::conduction, 28); }
+TEST(StagesInRtl, Convection) { one_stage(StageKind::convection, 36); }
+TEST(StagesInRtl, Exchange) { one_stage(StageKind::exchange, 36); }
+TEST(StagesInRtl, Melt) { one_stage(StageKind::melt, 28); }
+TEST(StagesInRtl, Gravity) { one_stage(StageKind::gravity, 40); }
+TEST(StagesInRtl, Pattern) { one_stage(StageKind::pattern, 40); }
+TEST(StagesInRtl, Apply) { one_stage(StageKind::apply, 40); }
+
+}  // namespace
+}  // namespace voxmelt::hwmodel
