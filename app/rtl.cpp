@@ -42,6 +42,7 @@ struct RtlCommand {
 
 std::string makefile_of() {
   return R"(# make          compiles the test bench with Verilator, and streams the vectors without and with stalls
+# make BLOCKS=1 does so with products as multiplier blocks have them
 # make xilinx   synthesises the pipeline with Yosys for UltraScale+; likewise ecp5, ice40
 SOURCES := voxmelt_pkg.sv $(filter-out voxmelt_pkg.sv testbench.sv, $(wildcard *.sv))
 
@@ -50,11 +51,11 @@ test: built/testbench
 	./built/testbench +stalls=3
 
 built/testbench: testbench.sv $(SOURCES)
-	verilator --binary --timing -O3 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique \
+	verilator --binary --timing $(if $(BLOCKS),-DVOXMELT_BLOCKS) -O3 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique \
 	  --top-module testbench --Mdir built -o testbench $(SOURCES) testbench.sv
 
 xilinx ecp5 ice40: $(SOURCES)
-	yosys -l $@.log -p "read_verilog -sv $(SOURCES); hierarchy -check -top pipeline; proc; check -assert; \
+	yosys -l $@.log -p "read_verilog -sv $(if $(filter ice40,$@),,-DVOXMELT_BLOCKS) $(SOURCES); hierarchy -check -top pipeline; proc; check -assert; \
 	  synth_$@ $(if $(filter xilinx,$@),-family xcup) -top pipeline; stat"
 
 clean:

@@ -1,8 +1,7 @@
-// A product over three registers. In logic, each register ends one sum. `SPLIT = 0` leaves it to a multiplier
-// block and its own registers.
+// A product over three registers. In logic, each register ends one sum. With VOXMELT_BLOCKS it is left to a
+// multiplier block and its own registers.
 module product #(
-    parameter B = 17,
-    parameter SPLIT = 1
+    parameter B = 17
 ) (
     input  logic                 clk,
     input  logic                 en,
@@ -10,27 +9,27 @@ module product #(
     input  logic        [B-1:0]  b,
     output logic signed [B+17:0] p  // three moves later
 );
-  if (SPLIT != 0) begin : logic_form
-    localparam S = (B + 2) / 3, T = B - 2 * S;  // bits of a third, and of the last one
-    logic signed [S+17:0] low, middle;
-    logic signed [T+17:0] high, high2;
-    logic signed [2*S+17:0] both;
-    always_ff @(posedge clk)
-      if (en) begin
-        low <= (S + 18)'(a * $signed({1'b0, b[S-1:0]}));
-        middle <= (S + 18)'(a * $signed({1'b0, b[2*S-1:S]}));
-        high <= (T + 18)'(a * $signed({1'b0, b[B-1:2*S]}));
-        both <= (2 * S + 18)'(low) + $signed({middle, {S{1'b0}}});
-        high2 <= high;
-        p <= (B + 18)'(both) + $signed({high2, {(2 * S) {1'b0}}});
-      end
-  end else begin : block_form
-    logic signed [B+17:0] p1, p2;
-    always_ff @(posedge clk)
-      if (en) begin
-        p1 <= (B + 18)'(a * $signed({1'b0, b}));
-        p2 <= p1;
-        p <= p2;
-      end
-  end
+`ifdef VOXMELT_BLOCKS
+  logic signed [B+17:0] p1, p2;
+  always_ff @(posedge clk)
+    if (en) begin
+      p1 <= (B + 18)'(a * $signed({1'b0, b}));
+      p2 <= p1;
+      p <= p2;
+    end
+`else
+  localparam S = (B + 2) / 3, T = B - 2 * S;  // bits of a third, and of the last one
+  logic signed [S+17:0] low, middle;
+  logic signed [T+17:0] high, high2;
+  logic signed [2*S+17:0] both;
+  always_ff @(posedge clk)
+    if (en) begin
+      low <= (S + 18)'(a * $signed({1'b0, b[S-1:0]}));
+      middle <= (S + 18)'(a * $signed({1'b0, b[2*S-1:S]}));
+      high <= (T + 18)'(a * $signed({1'b0, b[B-1:2*S]}));
+      both <= (2 * S + 18)'(low) + $signed({middle, {S{1'b0}}});
+      high2 <= high;
+      p <= (B + 18)'(both) + $signed({high2, {(2 * S) {1'b0}}});
+    end
+`endif
 endmodule

@@ -408,7 +408,7 @@ class Commands(unittest.TestCase):
         told = self.good("--help")
         self.assertIn("voxmelt run cello", told)
         view = ["view"] if Path(PROGRAM).with_name("voxmelt-view").exists() else []  # where its libraries are
-        commands = ["run", "digest", "export", "render", *view, "bench", "accuracy", "verify", "explore", "info", "list"]
+        commands = ["run", "digest", "export", "render", *view, "bench", "accuracy", "verify", "rtl", "explore", "info", "list"]
         self.assertEqual(re.findall(r"(?m)^  ([a-z]\w*) +\S", told.split("Subcommands:")[1]), commands)
         for command in commands:
             self.assertIn("--", self.good(command, "--help"))
@@ -597,7 +597,7 @@ kappa = 20
         for machine in (sets, ["--hw", "mine.toml"]):
             self.good("verify", self.scene, "--steps", 6, "--report", "m.json", *machine)
             report = json.loads((self.folder / "m.json").read_text())
-            self.assertEqual(report["hw"], {**asked, "overlap": 1, "tile": 0, "coded": 0, "memory": None, "clock_mhz": None})
+            self.assertEqual(report["hw"], {**asked, "overlap": 1, "tile": 0, "coded": 0, "registers": 0, "memory": None, "clock_mhz": None})
             self.assertEqual(report["passes"], 2)
             self.assertEqual({c["depth"] for c in report["channels"]}, {5})
             self.assertEqual({len(c["occupancy"]) for c in report["channels"]}, {6})

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, write
 
-COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "explore", "list", "info")
+COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "rtl", "explore", "list", "info")
 # What a value of each kind must not be.
 BAD = {
     "UINT": ["", "x", "-1", "1.5", "99999999999999999999", "0x", "1 2", "nan", "\u0661"],

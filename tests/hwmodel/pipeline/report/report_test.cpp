@@ -81,7 +81,7 @@ TEST(Report, JsonHoldsEveryNumberUnderItsName) {
   const auto json = json_of(report_with_distinct_numbers(), design_of(rule::Law::viscous), kMachine);
   const auto expected = nlohmann::ordered_json::parse(R"({
     "grid": [10, 5, 2], "law": "viscous",
-    "hw": {"lanes": 4, "cascade": 2, "substeps": 1, "overlap": 1, "tile": 12, "coded": 0, "fifo_depth": 8, "stall_seed": 9},
+    "hw": {"lanes": 4, "cascade": 2, "substeps": 1, "overlap": 1, "tile": 12, "coded": 0, "registers": 0, "fifo_depth": 8, "stall_seed": 9},
     "tiles": {"count": 1, "columns": 10, "halo": 0, "recomputed_cells_per_pass": 0},
     "first_step": 40, "steps": 3, "compared_cells": 501, "software_compared_cells": 502,
     "mismatches": 0, "first_mismatch": null, "digest": "0000000000000abc",
