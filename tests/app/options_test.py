@@ -49,7 +49,7 @@ class Options(unittest.TestCase):
 
     def first(self, command):
         return {"bench": [], "accuracy": [], "list": ["scenes"], "export": [self.scene, "--out", "o"],
-                "explore": [self.scene, "--device", "zu7ev"]}.get(command, [self.scene])
+                "explore": [self.scene, "--device", "zu7ev"], "rtl": [self.scene, "--out", "o"]}.get(command, [self.scene])
 
     def refused(self, *arguments):
         begin = time.monotonic()

@@ -18,12 +18,12 @@ namespace voxmelt::hwmodel {
 namespace {
 
 // These values are those of docs/hardware/pipeline.md.
-const std::map<std::string, std::int64_t> kUsual{{"lanes", 4},      {"cascade", 1},   {"substeps", 1},
-                                                 {"overlap", 1},    {"tile", 0},      {"coded", 0},
-                                                 {"fifo_depth", 4}, {"stall_seed", 0}};
-const std::map<std::string, std::int64_t> kOthers{{"lanes", 8},      {"cascade", 3},    {"substeps", 2},
-                                                  {"overlap", 0},    {"tile", 24},      {"coded", 1},
-                                                  {"fifo_depth", 5}, {"stall_seed", 77}};
+const std::map<std::string, std::int64_t> kUsual{{"lanes", 4},      {"cascade", 1},    {"substeps", 1},
+                                                 {"overlap", 1},    {"tile", 0},       {"coded", 0},
+                                                 {"fifo_depth", 4}, {"stall_seed", 0}, {"registers", 0}};
+const std::map<std::string, std::int64_t> kOthers{{"lanes", 8},      {"cascade", 3},     {"substeps", 2},
+                                                  {"overlap", 0},    {"tile", 24},       {"coded", 1},
+                                                  {"fifo_depth", 5}, {"stall_seed", 77}, {"registers", 1}};
 
 std::map<std::string, std::int64_t> values_of(const Configuration& c) {
   std::map<std::string, std::int64_t> values;
@@ -42,6 +42,7 @@ TEST(Configuration, RowsReadAndWriteTheirNumbers) {
   EXPECT_FALSE(c.overlap);
   EXPECT_EQ(c.tile, 24);
   EXPECT_TRUE(c.coded);
+  EXPECT_TRUE(c.registers);
   EXPECT_EQ(c.fifo_depth, 5);
   EXPECT_EQ(c.stall_seed, 77u);
 }
