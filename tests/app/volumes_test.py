@@ -243,6 +243,27 @@ class Volumes(unittest.TestCase):
         unu("save", "-f", "nrrd", "-e", "raw", "-i", "float.nrrd", "-o", "apart.nhdr")
         self.same("apart.nhdr")
 
+    @unittest.skipUnless(UNU and NUMPY, "no unu or no NumPy here: apt-get install teem-apps python3-numpy")
+    def test_teem_reads_what_is_exported(self):
+        scene = write(self.folder, of_shapes() + "[heat]\ngamma = 0.1\n[[heat_source]]\nat = [14, 12, 14]\npower = 90\n")
+        for form in ("npy", "nrrd"):
+            result = voxmelt("export", scene, "--steps", 20, "--format", form, "--out", self.folder / form)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        fields = sorted(path.stem for path in (self.folder / "npy").glob("*.npy"))
+        self.assertEqual(sorted(path.stem for path in (self.folder / "nrrd").glob("*.nrrd")), fields)
+        for field in fields:
+            # unu writes text, x fastest; NumPy reads the other format.
+            flat = subprocess.run([UNU, "reshape", "-s", str(NX * NY * NZ), "-i", self.folder / f"nrrd/{field}.nrrd", "-o", self.folder / "flat.nrrd"],
+                                  capture_output=True)
+            self.assertEqual(flat.returncode, 0, flat.stderr)
+            text = subprocess.run([UNU, "save", "-f", "text", "-i", self.folder / "flat.nrrd", "-o", "-"], capture_output=True, text=True)
+            numpy = subprocess.run([NUMPY, "-c", "import numpy, sys; print(*numpy.load(sys.argv[1]).ravel())", self.folder / f"npy/{field}.npy"],
+                                   capture_output=True, text=True)
+            self.assertEqual(text.stdout.split(), numpy.stdout.split(), field)
+            self.assertEqual(len(numpy.stdout.split()), NX * NY * NZ)
+            if field in ("solid", "liquid", "amount", "heat"):
+                self.assertGreater(len(set(numpy.stdout.split())), 1, field)
+
     def test_a_volume_without_a_scene(self):
         (self.folder / "a.npy").write_bytes(npy())
         result = voxmelt("run", "a.npy", "--steps", 1, "--size", "32x32", cwd=self.folder)

@@ -109,9 +109,24 @@ void export_vti(const state::Volume& volume, const std::filesystem::path& folder
   file.commit();
 }
 
+// Writes FIELD.nrrd, as it is in memory. NRRD names the fastest axis first.
+void export_nrrd(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll) {
+  const state::Grid g = volume.grid;
+  for (const Column& column : columns_of(volume)) {
+    FileWriter file(folder / (column.name + ".nrrd"));
+    file.write("NRRD0004\ncontent: " + column.name + "\ntype: " + (column.bytes == 1 ? "uint8" : "uint16") +
+               "\ndimension: 3\nsizes: " + std::to_string(g.x) + " " + std::to_string(g.y) + " " +
+               std::to_string(g.z) + "\nspacings: 1 1 1\nlabels: \"x\" \"y\" \"z\"\n" +
+               "endian: little\nencoding: raw\n\n");
+    write_rows(file, column, g, poll);
+    file.commit();
+  }
+}
+
 constexpr std::array kFormats{
     Format{"npy", "NumPy arrays (z, y, x)", export_npy},
     Format{"vti", "one VTK image", export_vti},
+    Format{"nrrd", "NRRD, for teem and 3D Slicer", export_nrrd},
 };
 
 }  // namespace

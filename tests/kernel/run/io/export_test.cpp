@@ -95,6 +95,17 @@ TEST_F(Export, VtiHoldsTheSameBytes) {
 }
 
 // Each format writes into a folder that holds nothing else, so that no two formats can be one.
+TEST_F(Export, NrrdHoldsTheSameBytes) {
+  find_format("nrrd")->write(sample(), folder_, {});
+  const std::string amount = read("amount.nrrd"), solid = read("solid.nrrd");
+  EXPECT_EQ(amount.substr(0, amount.size() - 24),
+            "NRRD0004\ncontent: amount\ntype: uint16\ndimension: 3\nsizes: 3 2 2\nspacings: 1 1 1\n"
+            "labels: \"x\" \"y\" \"z\"\nendian: little\nencoding: raw\n\n");
+  EXPECT_EQ(amount.substr(amount.size() - 24 + 2, 2), "\x34\x12");
+  EXPECT_NE(solid.find("\ntype: uint8\n"), std::string::npos);
+  EXPECT_EQ(solid.substr(solid.size() - 12), std::string("\0\0\0\0\0\1\0\0\0\0\0\0", 12));
+}
+
 TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
   std::set<std::string> all;
   for (const Format& format : formats()) {
