@@ -186,8 +186,7 @@ void add_rtl(CommandLine& program) {
   auto options = std::make_shared<RtlCommand>();
   const Command command = program.add("rtl", std::string(description_of("rtl")));
   add_scene(command, options->common);
-  command.option("--out", options->out, "folder for sources, test bench, vectors and scripts")
-      .written_as("DIR");
+  command.option("--out", options->out, "folder for sources, test bench, vectors and scripts");
   command.option("--hw", options->hw,
                  "hardware configuration: a TOML file, or a name of `voxmelt list presets`");
   command.option("--passes", options->passes, "passes that the test bench streams")
