@@ -132,10 +132,11 @@ TEST(ExploreCheck, TheFileOfDepthsSaysTheMachine) {
   machine.overlap = false;
   machine.coded = true;
   machine.tile = 64;
-  EXPECT_EQ(toml_of(sizing, machine, "sized"),
-            "title = \"sized\"\n[hw]\nlanes = 4\ncascade = 3\nsubsteps = 2\noverlap = 0\ntile = 64\n"
-            "coded = 1\nregisters = 0\nstall_seed = 7\n[[hw.channel]]\nname = \"reader -> source\"\ndepth = 5\n"
-            "[[hw.channel]]\nname = \"melt -> writer\"\ndepth = 1\n");
+  EXPECT_EQ(
+      toml_of(sizing, machine, "sized"),
+      "title = \"sized\"\n[hw]\nlanes = 4\ncascade = 3\nsubsteps = 2\noverlap = 0\ntile = 64\n"
+      "coded = 1\nregisters = 0\nstall_seed = 7\n[[hw.channel]]\nname = \"reader -> source\"\ndepth = 5\n"
+      "[[hw.channel]]\nname = \"melt -> writer\"\ndepth = 1\n");
   machine.overlap = true;
   machine.coded = false;
   EXPECT_NE(toml_of(sizing, machine, "sized").find("overlap = 1\ntile = 64\ncoded = 0\n"), std::string::npos);
