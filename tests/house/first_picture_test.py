@@ -12,8 +12,8 @@ import sys
 from functools import cache
 from pathlib import Path
 
-LINES = 265000  # as counted last; more by a twentieth fails
-HEAVY = {"CLI/": 1, "nlohmann/json.hpp": 4}
+LINES = 284000  # as counted last; more by a twentieth fails
+HEAVY = {"CLI/": 1, "nlohmann/json.hpp": 6}
 OTHER_SETS = ("_sse42.dir/", "_avx512.dir/")  # of preset `first` on most machines: AVX2 alone, or NEON
 
 
