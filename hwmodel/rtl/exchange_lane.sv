@@ -24,10 +24,10 @@ module exchange_lane (
 
   wire [28:0] radiated = {1'b0, received1, 12'd0} + 29'(dither1);
   wire [16:0] lit = 17'(cell1.heat) + 17'(radiated[28:16]);
-  wire [1:0] axes1 = (^cell1.state) ? cell1.exposed_axes : 2'd0;  // of matter
+  wire [1:0] axes1 = cell1.exposed_axes;  // only matter has any
   wire [15:0] weight1 = axes1 == 2'd3 ? air_weights[47:32] : axes1 == 2'd2 ? air_weights[31:16]
                       : axes1 == 2'd1 ? air_weights[15:0] : 16'd0;
-  wire [1:0] axes8 = (^cell8.state) ? cell8.exposed_axes : 2'd0;
+  wire [1:0] axes8 = cell8.exposed_axes;
   wire [15:0] weight8 = axes8 == 2'd3 ? glow_weights[47:32] : axes8 == 2'd2 ? glow_weights[31:16]
                       : axes8 == 2'd1 ? glow_weights[15:0] : 16'd0;
 
@@ -55,7 +55,7 @@ module exchange_lane (
   always_ff @(posedge clk)
     if (move) begin
       cell1 <= cell_in;
-      received1 <= cell_in.state == voxmelt_pkg::SOLID ? received : 16'd0;
+      received1 <= received;  // a solid's alone counts
 
       cell2 <= cell1;
       if (cell1.state == voxmelt_pkg::SOLID) cell2.heat <= lit[16] ? 16'hFFFF : lit[15:0];

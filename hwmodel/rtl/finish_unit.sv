@@ -43,7 +43,7 @@ module finish_unit (
     if (move) begin
       amount1 <= stored[1] ? stored[17:2] : left_amount + amount_in;
       blocked1 <= stored[1];
-      mixes1 <= hot & ~stored[1] & (amount_in != 16'd0);
+      mixes1 <= hot & ~stored[1];  // what took nothing mixes to its own heat
       state1 <= stored[1:0];
       old1 <= stored[49:34];
       content4 <= kept3[31:0] + content3;

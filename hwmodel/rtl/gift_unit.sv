@@ -48,7 +48,7 @@ module gift_unit (
 
       pattern6 <= pattern5;
       amount6 <= pattern5 == 8'd0 ? 14'd0 : flow5[13:0];
-      energy6 <= pattern5 == 8'd0 ? 14'd0 : part5 < flow5 ? part5[13:0] : flow5[13:0];
+      energy6 <= pattern5 == 8'd0 ? 14'd0 : part5[13:0];  // no more, as no cell has more energy than amount
       held6 <= word5[17:2];
       held_energy6 <= word5[33:18];
       heat6 <= word5[49:34];

@@ -69,11 +69,20 @@ void agree(const Start& start, Configuration c, std::uint32_t steps, const std::
 Start world(std::uint64_t seed, int lanes) {
   worlds::Random random(seed * 31 + 5);
   const state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
-                         random.one_in(3) ? random.between(8, 14) : random.between(1, 5)};
+                         random.one_in(2) ? random.between(8, 14) : random.between(1, 5)};
   Start start = hostile_start(seed, rule::Law::paper, grid);
   start.parameters.flow.paper.use_table &= random.one_in(4);
   if (random.between(0, 3) != 0) start.parameters.flow.paper.reading = rule::EnergyReading::text;
   return start;
+}
+
+// Makes all solids so hot that radiation reaches the end of the range.
+void heat_solids(Start& start) {
+  const state::Grid& grid = start.volume.grid;
+  if (!start.parameters.heat.enabled) return;
+  worlds::for_each({0, 0, 0, grid.x, grid.y, grid.z}, [&](int x, int y, int z) {
+    if (start.volume.solid.test(x, y, z)) start.volume.heat[start.volume.at(x, y, z)] = 65530;
+  });
 }
 
 void one_stage(StageKind kind, int worlds) {
@@ -90,6 +99,11 @@ void one_stage(StageKind kind, int worlds) {
     if (kind == StageKind::fall)
       start = pieces_start(static_cast<std::uint64_t>(seed), rule::Law::paper, start.volume.grid);
     if (kind == StageKind::source && !start.parameters.has_openings()) continue;
+    if (kind == StageKind::exchange && seed % 2 == 0) heat_solids(start);
+    if (kind == StageKind::gravity && seed % 2 == 0) {
+      start.parameters.flow.paper.reading = rule::EnergyReading::printed;
+      start.parameters.flow.paper.beta = seed % 4 == 0 ? 262144 : 40000;
+    }
     const std::uint64_t stalls = seed % 3 == 0 ? 0 : static_cast<std::uint64_t>(seed);
     agree(start, {lanes, 1 + seed % 2, 1 + seed % 3, stalls}, 5, {name}, seed + 1, seen);
   }
