@@ -117,6 +117,9 @@ def verdict_of(bug, folder):
         return "NOT FOUND", False
     named = re.search(r"first mismatch \((\w+)\): ([\w ]+)|(hang)s?\b", done.stdout)
     where = named[2] or named[3] if named else ""
+    other_cycle = re.search(r"cycle (\d+), channel (\d+)", done.stdout)  # no other stage is a circuit then
+    if not named and other_cycle:
+        return f"found: {other_cycle[0]}", True
     right = where == bug["stage"] or "hang" in done.stdout
     return f"found: {named[1] if named and named[1] else where or done.stdout.strip().splitlines()[-1]}, {where}", right
 
