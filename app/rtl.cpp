@@ -1,9 +1,11 @@
 // The command `voxmelt rtl` writes the pipeline of a scene in SystemVerilog, with a test bench and scripts.
 #include <fmt/format.h>
 
+#include <sstream>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -115,14 +117,16 @@ void copy_sources(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(sources, error))
     if (entry.path().extension() == ".sv") {
-      fs::copy_file(entry.path(), folder / entry.path().filename(), error);
-      if (error) break;
+      std::ifstream source(entry.path(), std::ios::binary);
+      std::stringstream text;
+      text << source.rdbuf();
+      if (!source) break;
+      io::write_file(folder / entry.path().filename(), text.str());
       ++files;
     }
-  if (error || files == 0)
+  if (files == 0)
     throw UsageError(
-        fmt::format("error: {}: the sources in SystemVerilog that came with the program are "
-                    "not there",
+        fmt::format("error: {}: the sources in SystemVerilog that came with the program are not there",
                     sources.string()));
 }
 
