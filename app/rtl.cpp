@@ -1,12 +1,12 @@
 // The command `voxmelt rtl` writes the pipeline of a scene in SystemVerilog, with a test bench and scripts.
 #include <fmt/format.h>
 
-#include <sstream>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
