@@ -106,7 +106,7 @@ class Runs(unittest.TestCase):
                 self.assertEqual(self.outcome("mixed"), self.outcome("straight"))
 
     def test_a_killed_run_goes_on(self):
-        scene = write(self.folder, SMALL.replace("steps = 6", "steps = 400").replace("frame_every = 3", "frame_every = 100"))
+        scene = write(self.folder, SMALL.replace("steps = 6", "steps = 4000").replace("frame_every = 3", "frame_every = 1000"))
         self.run_to(scene, "--out", "straight")
         words = [PROGRAM, "run", str(scene), "--out", "killed", "--implementation", "gpu", "--checkpoint-every", "20"]
         process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
