@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = "kernel|render|hwmodel|library|include|examples|app|bench|measure|accuracy|report|tests|scenes|docs|cmake"
+TOPS = "kernel|render|hwmodel|library|include|python|examples|app|bench|measure|accuracy|report|tests|scenes|docs|cmake"
 SEPARATOR = re.compile(r"\|(?:\s*:?---*:?\s*\|)+")
 COLUMNS, README_LINES, SENTENCE_WORDS, DECISION_LINES = 100, 90, 30, 40
 

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 LONGEST = 60
-TOPS = ("kernel", "render", "hwmodel", "include", "library", "examples", "app", "bench", "measure", "report", "accuracy")
+TOPS = ("kernel", "render", "hwmodel", "include", "library", "python", "examples", "app", "bench", "measure", "report", "accuracy")
 # What a brace may belong to where no function is open, by the words before it.
 SCOPE = re.compile(r"^(inline\s+)?namespace\b|^extern\s*$|^(typedef\s+)?(class|struct|union|enum)\b(?!.*\)\s*(const|noexcept|override|final)?\s*$)")
 TEXT = re.compile(r'R"(?P<mark>[^()\\\s]*)\((?s:.*?)\)(?P=mark)"|"(?:[^"\\\n]|\\.)*"|(?<![0-9a-fA-F])\'(?:[^\'\\\n]|\\.)*\'|//[^\n]*|/\*(?s:.*?)\*/|^[ \t]*#(?:[^\n\\]|\\.|\\\n)*', re.M)

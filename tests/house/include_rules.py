@@ -97,6 +97,7 @@ ALLOWED = {
     "include/voxmelt": [],
     "library": ["include/voxmelt", "library/journal", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
                 CPU, "render/cells", "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
+    "python": ["include/voxmelt"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
     "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],
@@ -120,6 +121,7 @@ THIRD_PARTY = {
     "CLI/": ["app/command_line.cpp"],
     "CL/": ["kernel/engine/gpu/open_cl_library.h"],
     "boost/": ["app/view/server.cpp"],
+    "pybind11/": ["python"],
     "jpeglib.h": ["app/view/encode.cpp"],
     "benchmark/": ["bench"],
     "nlohmann/": ["kernel/scene/mesh_file", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/memory", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
@@ -131,7 +133,7 @@ THIRD_PARTY = {
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "include", "library", "examples")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "include", "library", "python", "examples")
 STANDARD_ONLY = (RULE, PICTURE, "include/voxmelt")
 
 

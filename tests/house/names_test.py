@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "library", "include", "examples", "tests", "cmake", "docs", "scenes")
+TOPS = ("kernel", "render", "hwmodel", "app", "bench", "measure", "accuracy", "report", "library", "include", "python", "examples", "tests", "cmake", "docs", "scenes")
 CPP = (".h", ".cpp")
 HASHED = (".py", ".sh", ".cmake", ".txt", ".toml", ".yml")
 # Pages whose names in backticks are not looked for in the code: they tell of times past, of trials and of tests.
@@ -31,7 +31,8 @@ CITED_SECTIONS = re.compile(r"([\w/]+\.md),? sections? " + NUMBERS)
 SECTIONS_OF = re.compile(r"[Ss]ections? " + NUMBERS + r" of ([\w/]+\.md)")
 BARE_SECTIONS = re.compile(r"[Ss]ections? " + NUMBERS)
 CITED_TITLE = re.compile(r'([\w/]+\.md),? "([^"]+)"')
-PATH = re.compile(r"(?<![\w./-])(?:" + "|".join(TOPS) + r")/[\w./-]*\w(?![*\w<])")
+# Others have a folder `python`, too, and sheets of memories name files of theirs.
+PATH = re.compile(r"(?<![\w./-])(?:" + "|".join(top for top in TOPS if top != "python") + r")/[\w./-]*\w(?![*\w<])")
 FILE = re.compile(r"(?<![\w./*<-])[\w-]+\.(?:h|cpp|py|sh|md|cmake)\b")
 NAMES = [re.compile(r"`([^`\s]+)`"), re.compile(r"(?<![\w./-])([A-Za-z]\w*_\w+)(?![\w./*-])"),
          re.compile(r"\b((?:\w+::)+\w+)"), re.compile(r"(?<![\w.])([a-z]\w*)\(\)")]
