@@ -46,10 +46,23 @@ double BusTime::read(double bursts, double ask) {
     const double turn = times_.turn - std::min(times_.turn - times_.back, idle);
     serve(writes, turn * std::min(1.0, writes / times_.channels));
   }
-  if (waiting_ >= high_ && reads_ >= batch_) serve(std::min(batch_, waiting_ - low_), times_.turn);
-  free_ = after(std::max(free_, ask), bursts * times_.burst);
-  reads_ += bursts;
+  free_ = std::max(free_, ask);
+  while (bursts > 0) {
+    const bool turns = waiting_ >= high_;
+    if (turns && reads_ >= batch_) serve(std::min(batch_, waiting_ - low_), times_.turn);
+    const double some = turns ? std::min(bursts, batch_ - reads_) : bursts;
+    free_ = after(free_, some * times_.burst);
+    reads_ += some;
+    bursts -= some;
+  }
   return free_;
+}
+
+double BusTime::hold(double at) {
+  if (!overflows()) return at;
+  serve(std::max(waiting_ - most_, std::min(batch_, waiting_ - low_)),
+        times_.turn * std::min(1.0, reads_ / batch_));
+  return std::max(at, free_);
 }
 
 double BusTime::rest(double at) const {

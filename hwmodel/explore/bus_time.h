@@ -32,6 +32,8 @@ class BusTime {
   // Reads so many bursts that are asked for at `ask`, and returns when they have passed. Before them go the
   // writes whose turn it is.
   double read(double bursts, double ask);
+  // If more writes wait than queues can hold, they go before anything else. Returns when, at the least `at`.
+  double hold(double at);
   // Returns when the bus has taken what no queue can hold, from `at` on.
   double rest(double at) const;
   bool overflows() const { return waiting_ > most_; }

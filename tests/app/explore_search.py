@@ -142,11 +142,21 @@ class Bus:
             idle = ask - self.free
             writes = min(self.waiting, max(idle / self.burst, min(48, self.waiting - 8)))
             self.serve(writes, (self.turn - min(self.turn - self.back, idle)) * min(1, writes))
-        if self.waiting >= 48 and self.reads >= 48:
-            self.serve(min(48, self.waiting - 8), self.turn)
-        self.free = self.after(max(self.free, ask), bursts * self.burst)
-        self.reads += bursts
+        self.free = max(self.free, ask)
+        while bursts > 0:
+            if self.waiting >= 48 and self.reads >= 48:
+                self.serve(min(48, self.waiting - 8), self.turn)
+            some = min(bursts, 48 - self.reads) if self.waiting >= 48 else bursts
+            self.free = self.after(self.free, some * self.burst)
+            self.reads, bursts = self.reads + some, bursts - some
         return self.free
+
+    def hold(self, at):
+        """The writer finds no room: at least a batch is written first. A way there and back is paid for 48 reads."""
+        if self.waiting <= 192:
+            return at
+        self.serve(max(self.waiting - 192, min(48, self.waiting - 8)), self.turn * min(1, self.reads / 48))
+        return max(at, self.free)
 
 
 def when(marks, bursts):
@@ -230,7 +240,7 @@ def by_columns(report, parts, content, hw, tiles, streams, fed, lag, interval):
             passed = bus.read((own - begins) / pieces + (feeds[c] if c < len(feeds) else 0) / pieces
                               + fill(max(own / pieces, 1 / pieces)), ask)
             come = begun[c] if begins and own <= 1 else max(passed, ask_last) + latency() if reads else passed
-            last = max(last + taken / pieces, come)
+            last = bus.hold(max(last + taken / pieces, come + (taken / max(1, own) if reads else 0)))
             if own:
                 marks.append((marks[-1][0] + own / pieces, last))
         done.append(last)
