@@ -143,7 +143,7 @@ void StreamTime::take(std::size_t column) {
     const double come = all_has_come    ? begun_[column]
                         : reads(column) ? std::max(passed, ask_last) + latency()
                                         : passed;
-    // What came last is taken after it has come. A writer that finds no room holds everything.
+    // Tokens follow the burst that brings them. A writer that finds no room holds everything.
     const double of_burst = reads(column) ? work_.column_cycles / std::max(1.0, own) : 0;
     last_ = bus_.hold(std::max(next, come + of_burst));
     waited_ = waited_ || (column > 0 && last_ > next);
