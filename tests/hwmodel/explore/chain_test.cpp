@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "hwmodel/memory/sheet.h"
@@ -62,6 +63,30 @@ TEST(Chain, AHaloIsANeighbours) {
   EXPECT_FALSE(is_for_chain(two.design(), two.design().shape.tiles()));
 }
 
+// A tile's halo must lie in what its neighbours own, block for block, and each device has one tile.
+TEST(Chain, EachBlockOfAHaloIsOfANeighbour) {
+  int fit = 0, too_far = 0;
+  for (int cascade = 1; cascade <= 6; ++cascade)
+    for (int width = 8; width < 96; width += 4) {
+      Two two;
+      two.hw.cascade = cascade;
+      two.hw.tile = width;
+      if (!tile_problem(two.question.parameters, two.question.grid, two.hw).empty()) continue;
+      const Design design = two.design();
+      const Shape& shape = design.shape;
+      bool near = true;
+      for (int tile = 0; tile < shape.tiles(); ++tile)
+        for (int block = shape.first_block(tile); block < shape.first_block(tile) + shape.blocks(); ++block)
+          near = near && std::abs(shape.owner(block) - tile) <= 1;
+      EXPECT_EQ(is_for_chain(design, shape.tiles()), near) << width << " " << cascade;
+      EXPECT_FALSE(is_for_chain(design, shape.tiles() - 1)) << width << " " << cascade;
+      EXPECT_FALSE(is_for_chain(design, shape.tiles() + 1)) << width << " " << cascade;
+      ++(near ? fit : too_far);
+    }
+  EXPECT_GT(fit, 10);
+  EXPECT_GT(too_far, 5);
+}
+
 TEST(Chain, PassesByHand) {
   EXPECT_EQ(linked_cycles(1000, 200, 300, 50), 1050) << "halos come while the pass lasts";
   EXPECT_EQ(linked_cycles(1000, 200, 900, 50), 1150) << "the link is the slower one";
@@ -86,7 +111,7 @@ TEST(Chain, HalosAreWritten) {
     one->question.device.link_gbit = 100'000;
     one->question.memory = load_memory("hbm2", "test");
     one->question.memory->mhz = 100;
-    one->question.grid = {96, 128, 4};  // columns are whole bursts
+    one->question.grid = {96, 128, 16};  // columns are whole bursts
   }
   two.hw.tile = 12;
   narrow.hw.tile = 0;
@@ -94,7 +119,7 @@ TEST(Chain, HalosAreWritten) {
   narrow.question.device.chain = 1;
   const RunTime wide = two.time(200), three = narrow.time(200);
   EXPECT_GT(three.on_memory, 3 * three.cycles / 2);
-  EXPECT_NEAR(static_cast<double>(wide.on_memory) / static_cast<double>(three.on_memory), 1, 0.1);
+  EXPECT_NEAR(static_cast<double>(wide.on_memory) / static_cast<double>(three.on_memory), 1, 0.02);
 }
 
 // Two machines write a token in each cycle from their lag on. A column of a halo goes over the link when its
