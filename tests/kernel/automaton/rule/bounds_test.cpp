@@ -86,7 +86,7 @@ TEST(Bounds, WhatACellTakesMakesItRise) {
   }
 }
 
-// Of a difference between neighbours counts no more than one cell, as of a drop in the flow. So a cliff does
+// A difference between neighbours counts as one cell at most, as a drop does in the flow. So a cliff does
 // not run ahead of what its liquid can do.
 TEST(Bounds, ACliffLevelsAsADropOfOneCell) {
   const Relaxation relaxation{8};

@@ -2,9 +2,6 @@
 // moulds that are nearly full, columns far over-full, cliffs with one sub-step.
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <cstdlib>
-
 #include "tests/kernel/measure.h"
 
 namespace voxmelt::scalar {
@@ -38,7 +35,7 @@ Volume vault(int missing) {
   return v;
 }
 
-// What has melted in a mould is never full to the unit.
+// A mould in which something has melted is never full to the unit.
 TEST(Vault, WhatNearlyFillsItStaysInIt) {
   const Volume v = vault(60);
   run::Simulation s = simulate(viscous(0.2), v);
