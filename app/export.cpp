@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/message.h"
+#include "app/moment.h"
 #include "app/options.h"
 #include "app/print.h"
 #include "app/report.h"
@@ -53,7 +54,7 @@ int run_export(const ExportOptions& options) {
   warn_of_limit(scene, options.common, simulation);
 
   const state::Volume& volume = simulation.volume();
-  io::find_format(options.format)->write(volume, out.partial(), stop_if_interrupted);
+  io::find_format(options.format)->write(moment_of(simulation), out.partial(), stop_if_interrupted);
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
   io::write_file(out.partial() / "fields.json", io::fields_json(volume));

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/link_or_copy.h"
 #include "app/message.h"
+#include "app/written_states.h"
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/checkpoint_files.h"
 #include "kernel/run/io/exchange.h"
@@ -117,15 +119,6 @@ Resumption load(const Candidate& candidate) {
   return run;
 }
 
-void link_or_copy(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_hard_link(from, to, error);
-  if (error) fs::copy_file(from, to, error);
-  if (error)
-    throw io::OutputError(to.string() + ": error: cannot write: " + error.message(),
-                          error == std::errc::no_space_on_device);
-}
-
 // A complete run has its last state beside its frames.
 std::vector<Candidate> last_state_of(const fs::path& place, const std::string& shown) {
   const fs::path file = place / io::kLastState;
@@ -161,6 +154,7 @@ void take_over(const Candidate& from, const RunRecord& record, const fs::path& f
   for (const checkpoint::FileState& frame : record.frames)
     link_or_copy(from.folder / "frames" / frame.name, folder / "frames" / frame.name);
   io::flush_folder(folder);
+  take_over_written(from.folder, folder, record, from.step);
   std::error_code ignored;
   if (const fs::path scene = from.folder / "scene.toml"; fs::exists(scene, ignored))
     link_or_copy(scene, folder / scene.filename());  // of a model

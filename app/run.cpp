@@ -31,6 +31,7 @@
 #include "app/run_record.h"
 #include "app/run_to_end.h"
 #include "app/visibility.h"
+#include "app/written_states.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
 
@@ -46,6 +47,8 @@ struct RunOptions {
   std::string setting = "normal";
   std::optional<int> fps;
   std::optional<std::string> checkpoint_every, wall_clock;
+  std::string write;  // names of formats, separated by commas
+  std::optional<std::uint32_t> write_every;
   std::string journal;          // file; empty for none
   std::string resume;           // folder; empty for a run from the scene's beginning
   std::set<std::string> given;  // given options, among those that a resumed run may change
@@ -127,6 +130,11 @@ PreparedRun prepare(const RunOptions& options) {
   record.setting = options.setting;
   record.checkpoint_every = options.checkpoint_every.value_or("");
   record.frames_per_second = options.fps.value_or(record.frames_per_second);
+  record.write = formats_named(options.write);
+  record.write_every = options.write_every.value_or(record.frame_every);
+  if (options.write_every && record.write.empty())
+    throw UsageError(
+        fmt::format("--write-every {}: error: --write says what is written", *options.write_every));
   record.id = by_chance();
   record.journal = journal_text(options.journal);
   record.journal_name = options.journal;
@@ -203,6 +211,11 @@ void add_run(CommandLine& program) {
       .within(1, kMostFramesPerSecond);
   command.option("--checkpoint-every", options->checkpoint_every,
                  "write a checkpoint after every N steps, or every N seconds (60s)");
+  begins(command.option(
+      "--write", options->write,
+      "write states, too, in these formats: " + format_list() + "; more than one as in csv,npz"));
+  begins(command.option("--write-every", options->write_every,
+                        "steps between states (default: between frames); 0: the first and the last only"));
   command.option("--wall-clock", options->wall_clock,
                  "end after this time (3h55m, 90s) as at a signal: with a checkpoint, and exit code 4");
   begins(add_journal(command, options->journal));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/run/checkpoint/blocks.h"
+#include "kernel/run/io/export.h"
 #include "render/packet/draw_picture.h"
 
 namespace voxmelt::app {
@@ -49,10 +50,23 @@ void read_frames(const json& frames, RunRecord& record, const std::filesystem::p
   }
 }
 
+void read_write(const json& object, RunRecord& record, const std::filesystem::path& file) {
+  record.write = object.at("write").get<std::vector<std::string>>();
+  record.write_every = whole<std::uint32_t>(object.at("write_every"), "write_every", file);
+  for (const std::string& name : record.write)
+    if (io::find_format(name) == nullptr)
+      checkpoint::fail(file, "its head: command.write is none of this program's formats");
+}
+
 }  // namespace
 
 bool frame_is_due(const RunRecord& record, std::uint32_t step) {
   return step == 0 || (record.frame_every > 0 && (step % record.frame_every == 0 || step == record.steps));
+}
+
+bool write_is_due(const RunRecord& record, std::uint32_t step) {
+  return !record.write.empty() &&
+         (step == 0 || step == record.steps || (record.write_every > 0 && step % record.write_every == 0));
 }
 
 std::size_t frames_due_before(const RunRecord& record, std::uint32_t step) {
@@ -81,6 +95,10 @@ std::string json_of(const RunRecord& record) {
               {"seconds",
                {record.seconds.update, record.seconds.render, record.seconds.encode, record.seconds.wait,
                 record.seconds.total}}};
+  if (!record.write.empty()) {
+    result["write"] = record.write;
+    result["write_every"] = record.write_every;
+  }
   if (common.seed) result["seed"] = *common.seed;
   if (!record.journal.empty()) {
     result["journal"] = record.journal;
@@ -101,6 +119,7 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     if (!render::setting_named(record.setting))
       checkpoint::fail(file, "its head: command.setting is none of this program's");
     record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
+    if (object.contains("write")) read_write(object, record, file);
     record.id = object.at("id").get<std::string>();
     if (object.contains("fps")) record.frames_per_second = whole<int>(object.at("fps"), "fps", file);
     if (record.frames_per_second < 1 || record.frames_per_second > kMostFramesPerSecond)

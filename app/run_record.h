@@ -22,6 +22,8 @@ struct RunRecord {
   std::string size;                // as --size; empty for the scene's
   std::string setting = "normal";  // as --setting
   std::string checkpoint_every;    // as --checkpoint-every; empty for none
+  std::vector<std::string> write;  // formats of --write
+  std::uint32_t write_every = 0;   // steps between states written; 0: the first and the last
   std::string journal;             // text of --journal; empty for none
   std::string journal_name;        // as --journal
   int frames_per_second = 12;      // of the film
@@ -39,6 +41,8 @@ RunRecord run_record_of(const std::string& json, const std::filesystem::path& fi
 
 // Tells if a frame is due: at the first step, every `frame_every` steps, and at the last one.
 bool frame_is_due(const RunRecord& record, std::uint32_t step);
+// Tells the same of the states of --write.
+bool write_is_due(const RunRecord& record, std::uint32_t step);
 std::size_t frames_due_before(const RunRecord& record, std::uint32_t step);
 
 }  // namespace voxmelt::app

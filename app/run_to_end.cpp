@@ -24,6 +24,7 @@
 #include "app/run_journal.h"
 #include "app/shell_word.h"
 #include "app/watch.h"
+#include "app/written_states.h"
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/io/checkpoint_files.h"
 
@@ -63,6 +64,7 @@ class Run {
         journal_(record().journal, record().journal_name, run_.scene, simulation_),
         film_(std::in_place, run_.scene, out().partial(), plan(), setting_of(record().setting)),
         checkpoints_(out().partial(), run_.scene, std::move(run_.text), thread_count(common())),
+        written_(record(), out().partial(), begun_at_),
         watch_(record().seen) {
     film_->keep(record().frame_steps);
   }
@@ -103,6 +105,7 @@ class Run {
 
   bool is_late() const { return run_.wall_clock && Clock::now() - start_ >= *run_.wall_clock; }
   bool checkpoint() {
+    written_.settle();
     film_->settle();  // then the times of its threads are known
     return checkpoints_.write(record(), *film_, simulation_, watch_.seen(), seconds_now());
   }
@@ -119,17 +122,20 @@ class Run {
     if (frame_is_due(record(), begun_at_) &&
         record().frame_steps.size() == frames_due_before(record(), begun_at_))
       show(begun_at_);
+    if (begun_at_ == 0) written_.add(simulation_);
     Progress progress(steps(), common().quiet, begun_at_);
     while (simulation_.steps_done() < steps() && !interrupted() && !is_late()) {
       if (journal_.apply()) checkpoints_.change_settings(journal_.settings(), simulation_.volume().grid);
       simulation_.step();
       film_->check();
       const std::uint32_t done = simulation_.steps_done();
+      written_.add(simulation_);
       if (done < steps() && checkpoints_.due(interval_, done)) checkpoint();
       if (frame_is_due(record(), done)) show(done);
       progress.show(done, simulation_.volume());
     }
     if (simulation_.steps_done() < steps()) resumable_ = checkpoint() || io::holds_work(out().partial());
+    written_.settle();
     video_note_ = film_->finish();
   }
 
@@ -180,6 +186,7 @@ class Run {
           place_);
     print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
     print("report         {}/report.json\n", place_);
+    written_.print_place(place_);
     if (!run_.scene.assumed.empty())
       print("scene          {}/scene.toml; change it, then: voxmelt run {}\n", place_,
             shell_word(place_ + "/scene.toml"));
@@ -210,6 +217,7 @@ class Run {
   RunJournal journal_;
   std::optional<Film> film_;
   Checkpoints checkpoints_;
+  WrittenStates written_;
   Watch watch_;
   std::string place_;       // place of the output, for messages
   std::string video_note_;  // why there is no film

@@ -157,7 +157,10 @@ void Simulation::export_state(const std::filesystem::path& folder, const std::st
   translated([&] {
     const run::Simulation& simulation = parts_->simulation;
     io::OutputFolder out(folder);
-    chosen.write(simulation.volume(), out.partial(), {});
+    io::Moment moment(simulation.volume());
+    moment.ledger = &simulation.ledger();
+    moment.step = simulation.steps_done();
+    chosen.write(moment, out.partial(), {});
     io::write_file(
         out.partial() / "parameters.json",
         io::parameters_json(simulation.parameters(), simulation.volume().grid, simulation.step_number()));

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kernel/automaton/rule/parameters.h"
+#include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/volume.h"
 
 namespace voxmelt::io {
@@ -16,12 +17,21 @@ namespace voxmelt::io {
 // Is called now and then. Any exception from it ends the export.
 using Poll = std::function<void()>;
 
+// Is what a format writes. A state alone has books that begin with it.
+struct Moment {
+  Moment(const state::Volume& v) : volume(v) {}  // NOLINT: a volume is a moment
+  const state::Volume& volume;
+  const state::Ledger* ledger = nullptr;
+  std::uint32_t step = 0;       // steps done
+  double seconds_per_step = 0;  // of the steps before it
+};
+
 // Describes a format for the fields of a state. `write` makes files in an existing folder, and throws
 // OutputError.
 struct Format {
   std::string_view name;         // name that users give
   std::string_view description;  // a few words
-  void (*write)(const state::Volume& volume, const std::filesystem::path& folder, const Poll& poll);
+  void (*write)(const Moment& moment, const std::filesystem::path& folder, const Poll& poll);
 };
 
 std::span<const Format> formats();                 // all of them; the first one is the default

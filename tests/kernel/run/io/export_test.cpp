@@ -106,6 +106,39 @@ TEST_F(Export, NrrdHoldsTheSameBytes) {
   EXPECT_EQ(solid.substr(solid.size() - 12), std::string("\0\0\0\0\0\1\0\0\0\0\0\0", 12));
 }
 
+// A member that is not packed is there as it is, after a header that ends in its name.
+TEST_F(Export, NpzHoldsTheNpyFiles) {
+  fs::create_directories(folder_ / "npz");
+  find_format("npz")->write(sample(), folder_ / "npz", {});
+  export_npy(sample(), folder_);
+  const std::string npz = read("npz/fields.npz");
+  EXPECT_EQ(npz.substr(0, 4), "PK\x03\x04");
+  for (const char* name : {"solid.npy", "liquid.npy", "inert.npy", "amount.npy", "energy.npy", "heat.npy"})
+    EXPECT_NE(npz.find(name + read(name)), std::string::npos) << name;
+  EXPECT_EQ(npz.substr(npz.size() - 22, 4), "PK\x05\x06");
+  EXPECT_EQ(npz.substr(npz.size() - 12, 2), std::string("\6\0", 2)) << "members";
+}
+
+// Summed by hand: 4660 + 4096, and 4660 * 65534 + 4096 * 7.
+TEST_F(Export, CsvHasTheBooks) {
+  const Volume volume = sample();
+  Moment moment(volume);
+  moment.step = 12;
+  moment.seconds_per_step = 1.0 / 64;
+  find_format("csv")->write(moment, folder_, {});
+  const std::string csv = read("steps.csv");
+  const std::size_t end = csv.find('\n') + 1;
+  EXPECT_EQ(csv.substr(0, end),
+            "step,seconds_per_step,solid_cells,liquid_cells,solid_mass,liquid_mass,mass,mass_start,"
+            "mass_added,mass_removed,energy,energy_start,energy_melted,energy_frozen,energy_added,"
+            "energy_removed,energy_reheated,energy_accelerated,energy_dissipated,energy_capped,heat,"
+            "heat_start,heat_conducted,heat_walls,heat_convected,heat_radiated,heat_warmed,heat_cooled,"
+            "heat_melted,heat_added,heat_removed,heat_rounded\n");
+  EXPECT_EQ(csv.substr(end),
+            "12,0.015625,1,1,4096,4660,8756,8756,0,0,258,258,0,0,0,0,0,0,0,0,305417112,305417112,"
+            "0,0,0,0,0,0,0,0,0,0\n");
+}
+
 TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
   std::set<std::string> all;
   for (const Format& format : formats()) {

@@ -1,0 +1,150 @@
+#include "app/written_states.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "app/link_or_copy.h"
+#include "app/message.h"
+#include "app/moment.h"
+#include "app/print.h"
+#include "kernel/run/io/csv.h"
+#include "kernel/run/io/export.h"
+#include "kernel/run/io/file_writer.h"
+#include "kernel/run/io/output_folder.h"
+
+namespace voxmelt::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStates = "states";
+constexpr std::string_view kTable = "csv";
+
+bool has(const RunRecord& record, bool table) {
+  return std::ranges::any_of(record.write,
+                             [&](const std::string& name) { return (name == kTable) == table; });
+}
+
+fs::path folder_of(const fs::path& folder, std::uint32_t step) {
+  return folder / kStates / fmt::format("step_{:05}", step);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw io::OutputError(folder.string() + ": error: cannot be made: " + error.message(),
+                          error == std::errc::no_space_on_device);
+}
+
+std::string text_of(const fs::path& file) {
+  const std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream) text << stream.rdbuf();
+  return text.str();
+}
+
+// Returns the number with which a row begins, or the largest one if it begins with a word.
+std::uint32_t step_of(std::string_view row) {
+  std::uint32_t step = UINT32_MAX;
+  std::from_chars(row.data(), row.data() + row.size(), step);
+  return step;
+}
+
+}  // namespace
+
+std::string format_list() {
+  std::string list;
+  for (const io::Format& format : io::formats())
+    list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", format.name, format.description);
+  return list;
+}
+
+std::vector<std::string> formats_named(const std::string& list) {
+  std::vector<std::string> names;
+  if (list.empty()) return names;
+  std::istringstream words(list + ",");
+  for (std::string name; std::getline(words, name, ',');) {
+    std::string known;
+    for (const io::Format& format : io::formats())
+      known += (known.empty() ? "" : ", ") + std::string(format.name);
+    if (io::find_format(name) == nullptr)
+      throw UsageError(fmt::format("--write {}: error: '{}' is not one of {}", list, name, known));
+    if (std::ranges::find(names, name) != names.end())
+      throw UsageError(fmt::format("--write {}: error: {} comes twice", list, name));
+    names.push_back(name);
+  }
+  return names;
+}
+
+WrittenStates::WrittenStates(const RunRecord& record, fs::path folder, std::uint32_t begun_at)
+    : record_(record), folder_(std::move(folder)), last_step_(begun_at) {
+  if (has(record_, true)) rows_ = text_of(folder_ / io::kCsvFile);
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / kStates, none))
+    states_ += entry.is_directory() ? 1 : 0;
+}
+
+void WrittenStates::add(const run::Simulation& simulation) {
+  const std::uint32_t step = simulation.steps_done();
+  if (!write_is_due(record_, step)) return;
+  io::Moment moment = moment_of(simulation);
+  const std::chrono::duration<double> passed = Clock::now() - last_;
+  if (step > last_step_) moment.seconds_per_step = passed.count() / (step - last_step_);
+  if (has(record_, true)) {
+    rows_ += (rows_.empty() ? io::csv_head() : "") + io::csv_row(moment);
+    settled_ = false;
+  }
+  if (has(record_, false)) {
+    const fs::path folder = folder_of(folder_, step);
+    make_folder(folder);
+    for (const std::string& name : record_.write)
+      if (name != kTable) io::find_format(name)->write(moment, folder, {});
+    io::flush_folder(folder);
+    ++states_;
+  }
+  last_ = Clock::now();
+  last_step_ = step;
+}
+
+void WrittenStates::settle() {
+  if (!settled_) io::write_file(folder_ / io::kCsvFile, rows_);
+  settled_ = true;
+}
+
+void WrittenStates::print_place(const std::string& place) const {
+  if (!rows_.empty()) print("table          {}/{}\n", place, io::kCsvFile);
+  if (states_ > 0) print("{} states      {}/{}/\n", states_, place, kStates);
+}
+
+void take_over_written(const fs::path& from, const fs::path& to, const RunRecord& record,
+                       std::uint32_t step) {
+  std::istringstream old(text_of(from / io::kCsvFile));
+  std::string rows;
+  for (std::string row; has(record, true) && std::getline(old, row);) {
+    const std::uint32_t written = step_of(row);
+    if (rows.empty() || (written <= step && write_is_due(record, written))) rows += row + "\n";
+  }
+  if (!rows.empty()) io::write_file(to / io::kCsvFile, rows);
+
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(from / kStates, none)) {
+    const std::string name = entry.path().filename().string();
+    const std::uint32_t written = step_of(name.starts_with("step_") ? name.substr(5) : name);
+    if (written > step || !write_is_due(record, written)) continue;
+    const fs::path folder = to / kStates / name;
+    make_folder(folder);
+    for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
+      link_or_copy(file.path(), folder / file.path().filename());
+    io::flush_folder(folder);
+  }
+}
+
+}  // namespace voxmelt::app
