@@ -130,7 +130,7 @@ class Write(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in (self.folder / "b/states").iterdir())[-2:], ["step_01950", "step_01960"])
 
     def test_mistakes_are_said(self):
-        for options, said in ((["--write", "tiff"], "--write tiff: error: 'tiff' is not one of npy, vti, nrrd, npz, csv"),
+        for options, said in ((["--write", "tiff"], "--write tiff: error: 'tiff' is not one of npy, vti, nrrd, npz, ply, glb, stl, obj, csv"),
                               (["--write", "npy,,csv"], "--write npy,,csv: error: '' is not one of"),
                               (["--write", "csv,npy,csv"], "csv comes twice"),
                               (["--write-every", 3], "--write-every 3: error: --write says what is written"),

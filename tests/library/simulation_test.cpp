@@ -228,8 +228,8 @@ TEST_F(Library, AnExportGoesOnTheSame) {
   simulation.export_state(folder / "vti", "vti");
   EXPECT_TRUE(std::filesystem::exists(folder / "vti/volume.vti"));
   EXPECT_TRUE(message_of<InputError>([&] {
-                simulation.export_state(folder / "none", "stl");
-              }).starts_with("export_state: error: format = \"stl\" is not one of npy, vti"));
+                simulation.export_state(folder / "none", "tiff");
+              }).starts_with("export_state: error: format = \"tiff\" is not one of npy, vti"));
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
   std::vector<std::string> names;
   for (const Format& format : formats()) names.push_back(format.name);

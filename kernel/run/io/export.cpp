@@ -10,6 +10,7 @@
 #include "kernel/run/io/csv.h"
 #include "kernel/run/io/file_writer.h"
 #include "kernel/run/io/npz.h"
+#include "kernel/run/io/surface_files.h"
 
 namespace voxmelt::io {
 namespace {
@@ -72,6 +73,10 @@ constexpr std::array kFormats{
     Format{"vti", "one VTK image", export_vti},
     Format{"nrrd", "NRRD, for teem and 3D Slicer", export_nrrd},
     Format{"npz", "NumPy arrays in one file", export_npz},
+    Format{"ply", "the surface, with heat and material", export_ply},
+    Format{"glb", "the same for viewers", export_glb},
+    Format{"stl", "the surface alone", export_stl},
+    Format{"obj", "the same as text", export_obj},
     Format{"csv", "a row of the books", export_csv},
 };
 

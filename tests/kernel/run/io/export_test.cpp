@@ -151,7 +151,7 @@ TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
     EXPECT_FALSE(fs::is_empty(folder)) << format.name;
   }
   EXPECT_EQ(formats().front().name, "npy");
-  EXPECT_EQ(find_format("stl"), nullptr);
+  EXPECT_EQ(find_format("tiff"), nullptr);
   EXPECT_EQ(find_format(""), nullptr);
 }
 
