@@ -22,6 +22,7 @@ BusTimes bus_times(const memory::Parameters& p, int clock_mhz, double turn) {
   times.back = clocks * (p.cwl + p.write_more + p.wtr_s);
   times.held = clocks * (p.cwl + p.write_more + p.beats() * p.columns_of_request() + p.wtr_s);
   times.open = clocks * (p.rp + p.rcd);
+  times.late = (1 - 1.0 / p.channels) * (times.turn + times.open);
   times.row_bursts = static_cast<double>(row);
   times.refresh_every = clocks * p.refi;
   times.refresh_stop = clocks * (p.rtp + p.rp_all + p.rfc + p.rcd);
@@ -65,12 +66,20 @@ double BusTime::hold(double at) {
   return std::max(at, free_);
 }
 
+// Replies come in order. So one is late if its channel writes, or that of the one before it.
+double BusTime::late() const {
+  const double both_read = free_ > wrote_ ? 1 - wrote_ / free_ : 0;
+  return wrote_ > 0 ? times_.late * (1 - both_read * both_read) : 0;
+}
+
 double BusTime::rest(double at) const {
   return overflows() ? after(std::max(at, free_), (waiting_ - most_) * times_.burst) : at;
 }
 
 void BusTime::serve(double writes, double turning) {
-  free_ = after(free_, writes * times_.burst + turning);
+  const double cycles = writes * times_.burst + turning;
+  free_ = after(free_, cycles);
+  wrote_ += cycles;
   waiting_ -= writes;
   reads_ = 0;
 }

@@ -16,6 +16,7 @@ struct BusTimes {
   double row_bursts = 1;  // bursts of a stream in the rows that are open at once
   double refresh_every = 0, refresh_stop = 0;
   double channels = 1;
+  double late = 0;  // of a reply whose channel writes, where there are several
 };
 
 // Returns these times of a memory. `turn` is in cycles of the memory.
@@ -38,6 +39,8 @@ class BusTime {
   double rest(double at) const;
   bool overflows() const { return waiting_ > most_; }
   bool has_written() const { return has_written_; }  // or is about to
+  // Returns by how much replies are later in the mean, as channels do not write at the same time.
+  double late() const;
 
  private:
   void serve(double writes, double turning);
@@ -47,6 +50,7 @@ class BusTime {
   bool has_written_ = false;
   double batch_, low_, high_, most_;           // bursts, of all channels
   double free_ = 0, waiting_ = 0, reads_ = 0;  // when the bus is free; writes that wait; reads since a turn
+  double wrote_ = 0;                           // cycles for writes and turns
 };
 
 }  // namespace voxmelt::hwmodel::explore

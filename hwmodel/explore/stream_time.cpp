@@ -75,7 +75,7 @@ class StreamTime {
     return column >= by ? done_[column - by] : 0;
   }
   // Replies come in order. So all wait for those that came right behind a write of their channel.
-  double latency() const { return latency_ + (bus_.has_written() ? held_ : 0); }
+  double latency() const { return latency_ + (bus_.has_written() ? held_ : 0) + bus_.late(); }
   void take(std::size_t column);
   void begin_coded(std::size_t column);
   void begin_next(std::size_t column);

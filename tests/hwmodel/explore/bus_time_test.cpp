@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "hwmodel/explore/stream_time.h"
+#include "hwmodel/memory/sheet.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -54,6 +55,24 @@ TEST(BusTime, WritesThatFindNoRoomGoFirst) {
   bus.write(1);
   EXPECT_EQ(bus.hold(0), 124 + 48 + 5) << "a batch at least, and half a turn for half a batch of reads";
   EXPECT_EQ(bus.hold(500), 500) << "there is room again";
+}
+
+// A channel writes in 48 of 108 cycles. A reply is late then, and so is the one behind it.
+TEST(BusTime, RepliesOfSeveralChannelsAreLate) {
+  BusTimes times = plain();
+  times.turn = 0;
+  times.late = 25;
+  BusTime bus(times, memory::Policy{});
+  bus.read(60, 0);
+  EXPECT_EQ(bus.late(), 0);
+  bus.write(232);
+  EXPECT_EQ(bus.hold(0), 60 + 48) << "at least a batch";
+  EXPECT_NEAR(bus.late(), 25 * (1 - (60. / 108) * (60. / 108)), 1e-9);
+  const memory::Parameters one = load_memory("ddr4-2400", "test");
+  EXPECT_EQ(bus_times(one, 300, 20).late, 0) << "one channel turns with itself";
+  memory::Parameters four = one;
+  four.channels = 4;
+  EXPECT_NEAR(bus_times(four, 300, 20).late, 0.75 * (20 + 17 + 17) / 4, 1e-9);
 }
 
 // Columns that are written at two bursts a cycle and read at next to nothing take the bus's time, but for the
