@@ -68,8 +68,9 @@ void agree(const Start& start, Configuration c, std::uint32_t steps, const std::
 
 Start world(std::uint64_t seed, int lanes) {
   worlds::Random random(seed * 31 + 5);
-  const state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
-                         random.one_in(2) ? random.between(8, 14) : random.between(1, 5)};
+  state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
+                   random.one_in(2) ? random.between(8, 14) : random.between(1, 5)};
+  if (seed % 3 == 0) grid.x = (grid.x + lanes - 1) / lanes * lanes;  // the last block is full
   Start start = hostile_start(seed, rule::Law::paper, grid);
   start.parameters.flow.paper.use_table &= random.one_in(4);
   if (random.between(0, 3) != 0) start.parameters.flow.paper.reading = rule::EnergyReading::text;
