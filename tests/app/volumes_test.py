@@ -171,7 +171,8 @@ class Volumes(unittest.TestCase):
         self.same("c.mha", meta())
         self.same("d.vox", vox())
         self.same("e.mha", meta(zlib.compress(CELLS), CompressedData="True"))
-        self.same("f.mha", meta(b"".join(struct.pack(">h", 5 * c) for c in CELLS), ElementType="MET_SHORT", BinaryDataByteOrderMSB="True"))
+        self.same("f.mha", meta(b"".join(struct.pack(">h", 5 * c) for c in CELLS), ElementType="MET_SHORT", BinaryDataByteOrderMSB="True"),
+                  "filled = [5, 5]\n")
         (self.folder / "numbers.raw").write_bytes(CELLS)
         self.same("g.mhd", meta(b"", ElementDataFile="numbers.raw"))
         self.same("h.nhdr", nrrd(b"", **{"data file": "numbers.raw"}))
@@ -185,6 +186,13 @@ class Volumes(unittest.TestCase):
         parts = [((1, 2, 3), (5, 8, 11))], BOXES[1:]
         for index, boxes in zip((3, 7), parts):
             self.assertEqual(self.digest(volume("d.vox", f"filled = [{index}, {index}]\n")), self.digest(of_shapes(boxes)))
+
+    # The bits of halves are written by hand: 2^-24, 2^-14 - 2^-24, 2^-14 and 65504, and their negatives.
+    def test_halves(self):
+        for bits, value in ((0x0001, 2 ** -24), (0x03ff, 1023 * 2 ** -24), (0x0400, 2 ** -14), (0x3555, 1365 / 4096), (0x7bff, 65504)):
+            for sign, low, high in ((0, value * 0.999, value * 1.001), (0x8000, -value * 1.001, -value * 0.999)):
+                data = b"".join(struct.pack("<H", (bits | sign) if cell else 0) for cell in CELLS)
+                self.same("half.npy", npy("<f2", data=data), f"filled = [{low!r}, {high!r}]\n")
 
     def test_places(self):
         (self.folder / "a.npy").write_bytes(npy(shape=(2, 1, 3), data=b"\1\0\1\1\1\1"))

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Bugs in readers of meshes and volumes: do app.meshes and app.volumes find each of them?
+
+    tests/kernel/scene/mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
+    tests/kernel/scene/mutants/run.py           builds and runs each; --only says which
+
+It wants a standing build: cmake --build --preset release --target voxmelt
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[2]))
+
+from overlay import ROOT, Build, Overlay, misfit, run
+
+PROGRAM = "app/voxmelt"
+
+
+def found_by(build, mutant):
+    """The first test that fails, or nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(PROGRAM)
+        code, text = run([sys.executable, f"tests/app/{mutant['test']}_test.py", str(program)], 600)
+    if code == 0:
+        return ""
+    first = re.search(r"^(?:FAIL|ERROR): (\w+)", text, re.M)
+    return first[1] if first else f"ends with {code}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="only see that every replacement applies")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
+    parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
+    options = parser.parse_args()
+    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
+    problems = [f"{mutant['name']}: {problem}" for mutant in mutants if (problem := misfit(mutant))]
+    print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
+    if problems or options.check:
+        return 1 if problems else 0
+    build = Build(options.build, lambda source, *_: source.startswith("kernel/scene/"))
+    missed = []
+    for mutant in (one for one in mutants if re.search(options.only, one["name"])):
+        found = found_by(build, mutant)
+        missed += [] if found else [mutant["name"]]
+        print(f"{mutant['name']:<48} {found or 'NOT FOUND'}", flush=True)
+    print(f"not found: {', '.join(missed)}" if missed else "all found")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
