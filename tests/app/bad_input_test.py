@@ -121,7 +121,7 @@ ARGUMENTS = [
     (["render", "scene.toml", "--elevation", "inf"], "--elevation", 2),
     (["digest", "scene.toml", "--seed", "9223372036854775808"], "--seed", 2),
     (["export", "scene.toml"], "--out", 2),
-    (["export", "scene.toml", "--out", "x", "--format", "stl"], "--format", 2),
+    (["export", "scene.toml", "--out", "x", "--format", "step"], "--format", 2),
     (["render", "scene.toml", "--out", "/nowhere/p.png"], "/nowhere/p.png", 2),
     (["render", "scene.toml", "--setting", "ultra"], "--setting", 2),
     (["list", "sins"], "sins", 2),
