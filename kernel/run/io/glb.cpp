@@ -1,4 +1,6 @@
 // glTF 2.0 as one binary file: a head, a chunk of JSON, and a chunk of numbers.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -6,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "kernel/run/io/file_writer.h"
@@ -15,8 +16,6 @@
 
 namespace voxmelt::io {
 namespace {
-
-using json = nlohmann::ordered_json;
 
 enum Kind { kUnsigned = 5125, kFloat = 5126 };          // numbers of glTF for types
 enum Target { kVertices = 34962, kTriangles = 34963 };  // and for what a buffer serves
@@ -28,45 +27,51 @@ void append(std::string& bytes, Number number) {
   bytes.append(raw, sizeof number);
 }
 
-// Describes arrays of 32 bits a number that follow each other.
+// Describes arrays of 32 bits a number that follow each other, in the words of glTF.
 struct Layout {
-  json accessors = json::array(), views = json::array();
+  std::string accessors, views;  // each with commas between
   std::uint64_t bytes = 0;
+  int count = 0;
 
-  void add(const char* type, Kind kind, std::size_t count, int numbers, Target target) {
-    const std::uint64_t size = std::uint64_t{count} * numbers * 4;
-    views.push_back({{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", size}, {"target", target}});
-    accessors.push_back(
-        {{"bufferView", views.size() - 1}, {"componentType", kind}, {"count", count}, {"type", type}});
+  // `more` are further members of the accessor.
+  void add(const char* type, Kind kind, std::size_t items, int numbers, Target target,
+           const std::string& more = {}) {
+    const std::uint64_t size = std::uint64_t{items} * numbers * 4;
+    const char* comma = count == 0 ? "" : ",";
+    views += fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", comma, bytes,
+                         size, static_cast<int>(target));
+    accessors += fmt::format(R"({}{{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", comma,
+                             count, static_cast<int>(kind), items, type, more);
     bytes += size;
+    ++count;
   }
 };
 
-json head_of(const Surface& surface, Layout& layout) {
-  const std::size_t vertices = surface.vertices.size();
-  json head{{"asset", {{"version", "2.0"}, {"generator", "voxmelt"}}}, {"scene", 0}};
-  head["scenes"] = json::array({{{"nodes", json::array()}}});
-  if (vertices == 0) return head;  // glTF has no empty mesh
-  layout.add("VEC3", kFloat, vertices, 3, kVertices);
-  for (int attribute = 0; attribute < 3; ++attribute) layout.add("SCALAR", kFloat, vertices, 1, kVertices);
-  layout.add("SCALAR", kUnsigned, surface.triangles.size() * 3, 1, kTriangles);
+// Returns the box around the vertices, as glTF wants it of positions.
+std::string box_of(const Surface& surface) {
   std::array<float, 3> low = surface.vertices[0].at, high = low;
   for (const SurfaceVertex& vertex : surface.vertices)
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], vertex.at[i]);
       high[i] = std::max(high[i], vertex.at[i]);
     }
-  layout.accessors[0]["min"] = low;
-  layout.accessors[0]["max"] = high;
-  head["scenes"][0]["nodes"].push_back(0);
-  head["nodes"] = json::array({{{"mesh", 0}, {"name", "matter"}}});
-  const json attributes{{"POSITION", 0}, {"_HEAT", 1}, {"_MATERIAL", 2}, {"_LIQUID", 3}};
-  head["meshes"] =
-      json::array({{{"primitives", json::array({{{"attributes", attributes}, {"indices", 4}}})}}});
-  head["accessors"] = layout.accessors;
-  head["bufferViews"] = layout.views;
-  head["buffers"] = json::array({{{"byteLength", layout.bytes}}});
-  return head;
+  return fmt::format(R"(,"min":[{},{},{}],"max":[{},{},{}])", low[0], low[1], low[2], high[0], high[1],
+                     high[2]);
+}
+
+std::string head_of(const Surface& surface, Layout& layout) {
+  const char* const begin =
+      R"({"asset":{"version":"2.0","generator":"voxmelt"},"scene":0,"scenes":[{"nodes":)";
+  const std::size_t vertices = surface.vertices.size();
+  if (vertices == 0) return std::string(begin) + "[]}]}";  // glTF has no empty mesh
+  layout.add("VEC3", kFloat, vertices, 3, kVertices, box_of(surface));
+  for (int attribute = 0; attribute < 3; ++attribute) layout.add("SCALAR", kFloat, vertices, 1, kVertices);
+  layout.add("SCALAR", kUnsigned, surface.triangles.size() * 3, 1, kTriangles);
+  return fmt::format(
+      R"({}[0]}}],"nodes":[{{"mesh":0,"name":"matter"}}],"meshes":[{{"primitives":[{{"attributes":)"
+      R"({{"POSITION":0,"_HEAT":1,"_MATERIAL":2,"_LIQUID":3}},"indices":4}}]}}],"accessors":[{}],)"
+      R"("bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
+      begin, layout.accessors, layout.views, layout.bytes);
 }
 
 std::string numbers_of(const Surface& surface) {
@@ -92,7 +97,7 @@ std::string chunk_head(std::size_t size, const char* type) {
 void export_glb(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
   const Surface surface = surface_of(moment.volume, poll);
   Layout layout;
-  std::string head = head_of(surface, layout).dump();
+  std::string head = head_of(surface, layout);
   head.resize((head.size() + 3) / 4 * 4, ' ');
   const std::filesystem::path place = folder / "surface.glb";
   const std::uint64_t size = 12 + 8 + head.size() + (layout.bytes > 0 ? 8 + layout.bytes : 0);
