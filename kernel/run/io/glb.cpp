@@ -49,11 +49,12 @@ struct Layout {
 
 // Returns the box around the vertices, as glTF wants it of positions.
 std::string box_of(const Surface& surface) {
-  std::array<float, 3> low = surface.vertices[0].at, high = low;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};  // as exact as the vertices
   for (const SurfaceVertex& vertex : surface.vertices)
     for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], vertex.at[i]);
-      high[i] = std::max(high[i], vertex.at[i]);
+      low[i] = std::min<double>(low[i], vertex.at[i]);
+      high[i] = std::max<double>(high[i], vertex.at[i]);
     }
   return fmt::format(R"(,"min":[{},{},{}],"max":[{},{},{}])", low[0], low[1], low[2], high[0], high[1],
                      high[2]);
