@@ -297,14 +297,19 @@ class Safety(InFolder):
             text = (setup + "print('ready', flush=True)\ntry:\n  " + call + "\nexcept KeyboardInterrupt:\n"
                     "  end = time.time()\n  done = cello.steps_done()\n  cello.step()\n"
                     "  print(end, cello.steps_done() - done, cello.ledgers().balance())\n")
-            child = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            self.assertEqual(child.stdout.readline(), "ready\n")
-            time.sleep(0.4)
-            sent = time.time()
-            child.send_signal(signal.SIGINT)
-            said, errors = child.communicate(timeout=60)
-            self.assertEqual(said.split()[1:], ["1", "True"], errors)
-            self.assertLess(float(said.split()[0]) - sent, 1, call)
+            # A busy machine may be late once, but not four times.
+            self.assertTrue(any(self.seconds_of_ctrl_c(text) < 1 for _ in range(4)), call)
+
+    def seconds_of_ctrl_c(self, text):
+        """How long a program goes on after Ctrl-C. It must have stepped once more, with its books balanced."""
+        child = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(child.stdout.readline(), "ready\n")
+        time.sleep(0.4)
+        sent = time.time()
+        child.send_signal(signal.SIGINT)
+        said, errors = child.communicate(timeout=60)
+        self.assertEqual(said.split()[1:], ["1", "True"], errors)
+        return float(said.split()[0]) - sent
 
 
 class Python(InFolder):

@@ -1,12 +1,11 @@
 // glTF 2.0 as one binary file: a head, a chunk of JSON, and a chunk of numbers.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -38,41 +37,48 @@ struct Layout {
            const std::string& more = {}) {
     const std::uint64_t size = std::uint64_t{items} * numbers * 4;
     const char* comma = count == 0 ? "" : ",";
-    views += fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", comma, bytes,
-                         size, static_cast<int>(target));
-    accessors += fmt::format(R"({}{{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", comma,
-                             count, static_cast<int>(kind), items, type, more);
+    views.append(comma).append(R"({"buffer":0,"byteOffset":)").append(std::to_string(bytes));
+    views.append(R"(,"byteLength":)").append(std::to_string(size));
+    views.append(R"(,"target":)").append(std::to_string(target)).append("}");
+    accessors.append(comma).append(R"({"bufferView":)").append(std::to_string(count));
+    accessors.append(R"(,"componentType":)").append(std::to_string(kind));
+    accessors.append(R"(,"count":)").append(std::to_string(items));
+    accessors.append(R"(,"type":")").append(type).append("\"").append(more).append("}");
     bytes += size;
     ++count;
   }
 };
 
-// Returns the box around the vertices, as glTF wants it of positions.
-std::string box_of(const Surface& surface) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};  // as exact as the vertices
-  for (const SurfaceVertex& vertex : surface.vertices)
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min<double>(low[i], vertex.at[i]);
-      high[i] = std::max<double>(high[i], vertex.at[i]);
-    }
-  return fmt::format(R"(,"min":[{},{},{}],"max":[{},{},{}])", low[0], low[1], low[2], high[0], high[1],
-                     high[2]);
+// Returns a corner of the box around the vertices. It is as exact as they are.
+template <class Which>  // which(a, b): tells if a is beyond b
+std::string corner_of(const Surface& surface, const Which& which) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < 3; ++i) {
+    float most = surface.vertices[0].at[i];
+    for (const SurfaceVertex& vertex : surface.vertices)
+      if (which(vertex.at[i], most)) most = vertex.at[i];
+    std::array<char, 32> digits;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<double>(most)).ptr;
+    text.append(i == 0 ? "" : ",").append(digits.data(), end);
+  }
+  return text + "]";
 }
 
 std::string head_of(const Surface& surface, Layout& layout) {
-  const char* const begin =
-      R"({"asset":{"version":"2.0","generator":"voxmelt"},"scene":0,"scenes":[{"nodes":)";
+  std::string head = R"({"asset":{"version":"2.0","generator":"voxmelt"},"scene":0,"scenes":[{"nodes":[)";
   const std::size_t vertices = surface.vertices.size();
-  if (vertices == 0) return std::string(begin) + "[]}]}";  // glTF has no empty mesh
-  layout.add("VEC3", kFloat, vertices, 3, kVertices, box_of(surface));
+  if (vertices == 0) return head + "]}]}";  // glTF has no empty mesh
+  const std::string box =
+      R"(,"min":)" + corner_of(surface, std::less<>()) + R"(,"max":)" + corner_of(surface, std::greater<>());
+  layout.add("VEC3", kFloat, vertices, 3, kVertices, box);
   for (int attribute = 0; attribute < 3; ++attribute) layout.add("SCALAR", kFloat, vertices, 1, kVertices);
   layout.add("SCALAR", kUnsigned, surface.triangles.size() * 3, 1, kTriangles);
-  return fmt::format(
-      R"({}[0]}}],"nodes":[{{"mesh":0,"name":"matter"}}],"meshes":[{{"primitives":[{{"attributes":)"
-      R"({{"POSITION":0,"_HEAT":1,"_MATERIAL":2,"_LIQUID":3}},"indices":4}}]}}],"accessors":[{}],)"
-      R"("bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-      begin, layout.accessors, layout.views, layout.bytes);
+  head.append(R"(0]}],"nodes":[{"mesh":0,"name":"matter"}],"meshes":[{"primitives":[{"attributes":)");
+  head.append(R"({"POSITION":0,"_HEAT":1,"_MATERIAL":2,"_LIQUID":3},"indices":4}]}],"accessors":[)");
+  head.append(layout.accessors).append(R"(],"bufferViews":[)").append(layout.views);
+  head.append(R"(],"buffers":[{"byteLength":)").append(std::to_string(layout.bytes)).append("}]}");
+  return head;
 }
 
 std::string numbers_of(const Surface& surface) {
