@@ -68,6 +68,7 @@ std::vector<std::string> changeable_keys() { return scene::changeable_keys(); }
 
 std::string with_changes(const std::string& scene_text, const std::vector<SceneChange>& more) {
   std::vector<scene::Change> changes;
+  changes.reserve(more.size());
   for (const SceneChange& one : more) changes.push_back({one.steps_done, one.what});
   return translated([&] { return scene::with_timeline(scene_text, changes); });
 }

@@ -293,7 +293,7 @@ class Safety(InFolder):
         setup = (f"import sys, time; sys.path.insert(0, {str(PACKAGE)!r}); import voxmelt\n"
                  f"cello = voxmelt.Simulation({str(ROOT / 'scenes/cello.toml')!r})\n")
         for call in ("cello.step(10**6)", "list(cello.run(10**6, every=10**5))",
-                     "cello.render(voxmelt.Picture(width=8000, height=8000, quality=voxmelt.Quality.best))"):
+                     "cello.render(voxmelt.Picture(width=4000, height=4000, quality=voxmelt.Quality.best))"):
             text = (setup + "print('ready', flush=True)\ntry:\n  " + call + "\nexcept KeyboardInterrupt:\n"
                     "  end = time.time()\n  done = cello.steps_done()\n  cello.step()\n"
                     "  print(end, cello.steps_done() - done, cello.ledgers().balance())\n")
