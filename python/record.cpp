@@ -13,7 +13,7 @@ py::object frozen(py::object value) {
   return py::tuple(value);
 }
 
-void RecordFields::add(py::object cls, const char* name, Getter getter, Setter setter) {
+void RecordFields::add(const py::object& cls, const char* name, Getter getter, Setter setter) {
   std::string in_cpp = name;
   if (in_cpp.back() == '_') in_cpp.pop_back();
   const py::object property =
@@ -23,7 +23,7 @@ void RecordFields::add(py::object cls, const char* name, Getter getter, Setter s
   fields_.push_back({name, std::move(setter)});
 }
 
-void RecordFields::finish(py::object cls, const py::object& defaults) const {
+void RecordFields::finish(const py::object& cls, const py::object& defaults) const {
   py::list names;
   for (const Field& field : fields_) names.append(field.name);
   py::module_::import("voxmelt._record").attr("finish")(cls, py::tuple(names), defaults);

@@ -26,9 +26,9 @@ class RecordFields {
 
   explicit RecordFields(std::string scope) : scope_(std::move(scope)) {}
 
-  void add(py::object cls, const char* name, Getter getter, Setter setter);
+  void add(const py::object& cls, const char* name, Getter getter, Setter setter);
   // Gives the class what all values have (voxmelt/_record.py). `defaults` is None where users make none.
-  void finish(py::object cls, const py::object& defaults) const;
+  void finish(const py::object& cls, const py::object& defaults) const;
   // Fills a struct from the arguments of its constructor.
   void fill(void* made, const py::args& values, const py::kwargs& named) const;
 
