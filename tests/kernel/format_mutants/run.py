@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Bugs in readers of meshes and volumes: do app.meshes and app.volumes find each of them?
+"""Bugs in readers of meshes and volumes, and in writers of states: does the test that each names find it?
 
-    tests/kernel/scene/mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
-    tests/kernel/scene/mutants/run.py           builds and runs each; --only says which
+    tests/kernel/format_mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
+    tests/kernel/format_mutants/run.py           builds and runs each; --only says which
 
 It wants a standing build: cmake --build --preset release --target voxmelt
 """
@@ -14,7 +14,7 @@ import tempfile
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[2]))
+sys.path.insert(0, str(HERE.parents[1]))
 
 from overlay import ROOT, Build, Overlay, misfit, run
 
@@ -38,12 +38,12 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="the standing build")
     parser.add_argument("--only", default="", help="mutants whose name holds this regular expression")
     options = parser.parse_args()
-    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
+    mutants = [one for path in sorted(HERE.glob("*.toml")) for one in tomllib.loads(path.read_text())["mutant"]]
     problems = [f"{mutant['name']}: {problem}" for mutant in mutants if (problem := misfit(mutant))]
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith("kernel/scene/"))
+    build = Build(options.build, lambda source, *_: source.startswith(("kernel/scene/", "kernel/run/io/")))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)
