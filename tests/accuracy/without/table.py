@@ -1,5 +1,6 @@
 """The page of rules: which gate fails without each, and which rules no gate needs."""
 import json
+import textwrap
 
 HEAD = """<!-- Written by tests/accuracy/without/run.py -->
 # What each rule of the viscous law is for
@@ -72,8 +73,11 @@ def page(rules, results):
     needless = [r for r in ran if r not in found and results[r["name"]]["whole"]]
     by_gate = sum(results[r["name"]]["found"] == "gate" for r in found)
     commits = sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})
-    lines = [HEAD, f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs",
-             f"{len(needless)}. For {len(rules) - len(found) - len(needless)} not all has run yet. Commits of the runs: {', '.join(commits)}."]
+    unfinished = len(rules) - len(found) - len(needless)
+    sums = (f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs "
+            f"{len(needless)}." + (f" For {unfinished} not all has run yet." if unfinished else "")
+            + f" Commits of the runs: {', '.join(commits)}.")
+    lines = [HEAD, *textwrap.wrap(sums, 100)]
     for section in sorted({r["section"] for r in found}):
         lines += ["", f"## Section {section}", "", "| rule | what it says | without it: the gate that fails | error | gate | case or test |",
                   "|---|---|---|---|---|---|"]
@@ -83,5 +87,6 @@ def page(rules, results):
                       f"| {r.get('verdict', '')} |")
     lines += ["", "## What no gate needs"] + head + list(map(line, needless))
     rest = [r for r in rules if r not in found and r not in needless]
-    lines += ["", "## What has not run to its end", "", "The command goes on with these."] + head + list(map(line, rest))
+    if rest:
+        lines += ["", "## What has not run to its end", "", "The command goes on with these."] + head + list(map(line, rest))
     return "\n".join(lines) + "\n"
