@@ -159,6 +159,10 @@ Cases spreading() {
        "A lake 20 deep and 64 long, kappa 0.01, with a wave of one cell. It wants some 90 sub-steps. Relaxed "
        "heads (flow.viscous.stages_max) do with one; without them, few sub-steps hold it back.",
        measure_deep_lake},
+      {"hump", "Spreading", "A steep hump on a pool sinks as lubrication theory says",
+       "A Gaussian at the wall of a pool 3 deep, kappa 0.05, 24 steps. Its flanks are as steep as 2 cells "
+       "per cell.",
+       measure_hump},
       {"drop_shape", "Spreading", "A drop stays round",
        "A disc of radius 12 and depth 4 under both laws. The paper's law is no viscous liquid: its exponent "
        "is reported.",
@@ -173,7 +177,8 @@ Cases slopes() {
        "With --quick the plane is 9 cells wide, not 33.",
        measure_nusselt},
       {"melting_film", "Slopes", "The same on a solid that melts",
-       "The solid's surface lies where its amount and its heat say. "
+       "The solid's surface lies where its amount and its heat say: full cells that are half melted, or half "
+       "warmed without latent heat, carry a film as partly full ones do. "
        "Kappa 0.1 where it is cold, and 0.02 where it melts under a sun. "
        "With --quick slope 0.25 alone, and cold.",
        measure_melting_film},
@@ -183,6 +188,11 @@ Cases slopes() {
        "A film of depth 1.6 at one temperature, slope 0.25. Its kappa is chosen so that it is 0.1 at this "
        "temperature. With --quick the plane is 9 cells wide, not 33.",
        measure_thermal_film},
+      {"film_front", "Slopes", "The front of a film runs down a dry plane and keeps its shape",
+       "Lubrication theory gives the shape of the front, and it goes with the film's mean velocity. "
+       "Liquid may end up to a cell later, since a cell is dry or wet. "
+       "With --quick the steepest and deepest alone.",
+       measure_film_front},
       {"cylinder_film", "Slopes", "A film runs down the side of a cylinder",
        "The film is fed at the top of a horizontal cylinder. Nusselt's film on the slope of each place says "
        "how thick it is across the bed, at so many degrees from the top. Steeper than 45 degrees liquid "

@@ -51,4 +51,11 @@ inline void put_column(state::Volume& volume, int x, int z, double depth, int bo
     put_liquid(volume, x, y, z, std::min(1.0, depth - (y - bottom)));
 }
 
+// Puts a column of inert cells with its surface at `height`, and `depth` of liquid on it.
+inline void put_column_on_bed(state::Volume& volume, int x, int z, double height, double depth) {
+  const int top = static_cast<int>(std::lround(height));
+  for (int y = 0; y < top; ++y) put_inert(volume, x, y, z, y + 1 == top ? height - top : 0);
+  put_column(volume, x, z, depth, top);
+}
+
 }  // namespace voxmelt::accuracy

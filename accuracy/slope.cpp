@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -23,8 +24,9 @@ enum class Bed { smooth, stairs };
 
 // Puts a column of inert cells with its surface at `height`, and `depth` of liquid on it.
 void put_bed(state::Volume& v, int x, int z, double height, double depth, Bed bed) {
+  if (bed == Bed::smooth) return put_column_on_bed(v, x, z, height, depth);
   const int top = static_cast<int>(std::lround(height));
-  for (int y = 0; y < top; ++y) put_inert(v, x, y, z, y + 1 == top && bed == Bed::smooth ? height - top : 0);
+  for (int y = 0; y < top; ++y) put_inert(v, x, y, z);
   put_column(v, x, z, depth, top);
 }
 
@@ -78,14 +80,24 @@ struct Film {
   }
 };
 
-// A film lies on a plane of solid cells, the uppermost of each column partly full. Where it melts, a sun that
+// A film lies on a plane of solid cells. The uppermost of each column is partly full, or full and partly
+// melted, or warmed where there is no latent heat. Where it melts, a sun that
 // stands above takes a cell from each column in kSteps steps. The flux through the columns of the middle is
 // compared with Nusselt's at the mean depth of each moment.
 struct MeltingFilm {
   static constexpr int kLength = 96, kWidth = 9, kMiddle = 20;
   static constexpr std::uint32_t kSteps = 2000;
+  static constexpr std::array kNames{"cold", "half melted", "half warmed", "a cell melts in 2,000 steps"};
   double slope, depth;
-  bool melts;
+  enum class Solid { cold, half_melted, half_warmed, melts } solid;
+  bool melts() const { return solid == Solid::melts; }
+  double latent_heat() const { return solid == Solid::half_warmed ? 0 : 0.3; }
+
+  // Returns the heat of a solid cell of which `part` has not melted yet.
+  double heat_of(double part) const {
+    if (solid == Solid::half_melted) return (0.5 + 0.3 * (1 - part)) * kHottest;
+    return 0.5 * kHottest - (solid == Solid::half_warmed ? part * kOne : 0);
+  }
 
   void fill(state::Volume& v) const {
     for (int z = 0; z < kWidth; ++z)
@@ -93,8 +105,9 @@ struct MeltingFilm {
         const double height = 2 + slope * (kLength - 0.5 - x);
         int y = 0;
         for (; y + 0.25 <= height; ++y) {  // as a shape leaves them
-          put_solid(v, x, y, z, 0.5 * kHottest);
-          v.amount[v.at(x, y, z)] = to_units(kOne * std::min(1.0, height - y));
+          const double part = std::min(1.0, height - y);
+          put_solid(v, x, y, z, heat_of(part));
+          if (solid == Solid::cold || melts()) v.amount[v.at(x, y, z)] = to_units(kOne * part);
         }
         put_column(v, x, z, depth, y);
       }
@@ -113,14 +126,15 @@ struct MeltingFilm {
   }
 
   Row measure(const Conditions& conditions) const {
-    const double kappa = melts ? 0.02 : 0.1;
+    const double kappa = melts() ? 0.02 : 0.1;
     const int high = static_cast<int>(std::ceil(slope * kLength)) + 8;
     Trial trial(conditions, "film",
                 {fmt::format("grid.size=[{},{},{}]", kLength, high, kWidth),
                  fmt::format("flow.viscous.kappa={}", kappa), "flow.viscous.substeps=1",
-                 fmt::format("heat_source.0.power={}", melts ? 0.3 / kSteps : 0)},
+                 fmt::format("material.latent_heat={}", latent_heat()),
+                 fmt::format("heat_source.0.power={}", melts() ? 0.3 / kSteps : 0)},
                 [&](state::Volume& v) { fill(v); });
-    const std::uint32_t lead = melts ? kSteps / 2 : 64, counted = melts ? kSteps : 256, sample = 16;
+    const std::uint32_t lead = melts() ? kSteps / 2 : 64, counted = melts() ? kSteps : 256, sample = 16;
     trial.run_to(lead);
     const int first = (kLength - kMiddle) / 2;
     const auto beyond = [&] {  // summed over the faces of the middle
@@ -139,7 +153,7 @@ struct MeltingFilm {
       trial.run_to(lead + step + sample);
     }
     return {.setting = fmt::format("slope {:g}, depth {:g} at first, {}", slope, depth,
-                                   melts ? "a cell melts in 2,000 steps" : "cold"),
+                                   kNames[static_cast<int>(solid)]),
             .quantity = fmt::format("flux over Nusselt's, at depth {:.3f}", depths),
             .value = (beyond() - before) / kMiddle / exact,
             .exact = 1,
@@ -158,11 +172,13 @@ Film film_of(const Conditions& conditions, double slope, double depth) {
 
 Outcome measure_melting_film(const Conditions& conditions) {
   Outcome outcome;
-  for (const bool melts : {false, true})
+  using Solid = MeltingFilm::Solid;
+  for (const Solid solid : {Solid::cold, Solid::half_melted, Solid::half_warmed, Solid::melts})
     for (const double slope : {0.1, 0.25, 0.5, 1.0})
       for (const double depth : {0.5, 1.5}) {
+        const bool melts = solid == Solid::melts;
         if (conditions.quick && (melts || slope != 0.25)) continue;
-        Row row = MeltingFilm{slope, depth, melts}.measure(conditions);
+        Row row = MeltingFilm{slope, depth, solid}.measure(conditions);
         // A cell that melts is thicker than the thinnest film on the gentlest slope. Its drops are reported.
         if (!(melts && slope == 0.1 && depth == 0.5)) row.gate = 0.05;
         outcome.rows.push_back(std::move(row));
@@ -263,8 +279,8 @@ Trial blob_on_plane(const Conditions& conditions, double fall_x, double fall_z) 
                  for (int z = 0; z <= 2 * kHalf; ++z)
                    for (int x = 0; x <= 2 * kHalf; ++x) {
                      const double r2 = (x - kHalf) * (x - kHalf) + (z - kHalf) * (z - kHalf);
-                     put_bed(v, x, z, 1 + fall_x * (2 * kHalf - x) + fall_z * (2 * kHalf - z),
-                             kDepth * (1 - r2 / (kRadius * kRadius)), Bed::smooth);
+                     put_column_on_bed(v, x, z, 1 + fall_x * (2 * kHalf - x) + fall_z * (2 * kHalf - z),
+                                       kDepth * (1 - r2 / (kRadius * kRadius)));
                    }
                });
 }

@@ -10,6 +10,7 @@ Outcome measure_narrow_film(const Conditions&);
 Outcome measure_thermal_film(const Conditions&);
 Outcome measure_cylinder_film(const Conditions&);
 Outcome measure_stairs(const Conditions&);
+Outcome measure_film_front(const Conditions&);
 Outcome measure_blob(const Conditions&);
 
 }  // namespace voxmelt::accuracy
