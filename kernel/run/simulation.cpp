@@ -133,8 +133,10 @@ std::int64_t Simulation::loose_cells() const { return scalar::loose_cells(volume
 
 void Simulation::let_pieces_fall() {
   volume_.changed.begin();
-  if (!(host_ != nullptr ? host_->let_pieces_fall(step_number(), volume_) : let_pieces_fall_for_device()))
+  if (!(host_ != nullptr ? host_->let_pieces_fall(step_number(), volume_) : let_pieces_fall_for_device())) {
+    if (!untold_) volume_.changed.end();  // as before: all has been told, and nothing has moved
     return;
+  }
   untold_ = true;
   provider_->forget_amounts();
 }

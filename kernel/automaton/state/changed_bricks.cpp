@@ -31,6 +31,11 @@ void ChangedBricks::forget() {
 }
 
 void ChangedBricks::mark(Part part, std::uint64_t words, int y, int z) {
+  newer(part, words, y, z);
+  if (part == kMatter) newer(kWalls, words, y, z);
+}
+
+void ChangedBricks::newer(Part part, std::uint64_t words, int y, int z) {
   if (volume_ == 0) return;
   std::uint64_t* const row = newest_[part].data() + bricks_.index(0, y, z);
   for (; words != 0; words &= words - 1) {

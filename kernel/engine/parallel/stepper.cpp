@@ -30,11 +30,19 @@ bool keeps_sides(const rule::Parameters& p) {
   return p.flow.law == rule::Law::paper && p.heat.enabled && p.falls_by_sides();
 }
 
-void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
+// Calls visit(z, r, words) for the tiles whose walls are others now.
+template <class Visit>
+void refresh(const simd::View& view, const Tiles& tiles, Walls& walls, const Visit& visit) {
   for (int z = 0; z < view.nz; ++z)
-    for (int r = 0; tiles.any(z) && r < view.tile_rows(); ++r)
-      if (tiles.slice(z)[r] != 0)
-        for (int y = view.tile_begin(r); y < view.tile_end(r); ++y) walls.refresh(view, y, z);
+    for (int r = 0; tiles.any(z) && r < view.tile_rows(); ++r) {
+      if (tiles.slice(z)[r] == 0) continue;
+      TileRow words = 0;
+      for (int y = view.tile_begin(r); y < view.tile_end(r); ++y) words |= walls.refresh(view, y, z);
+      if (words != 0) visit(z, r, words);
+    }
+}
+void refresh(const simd::View& view, const Tiles& tiles, Walls& walls) {
+  refresh(view, tiles, walls, [](int, int, TileRow) {});
 }
 
 int chunks_for(const step::Tuning& tuning) { return tuning.threads == 1 ? 1 : 4 * tuning.threads; }
@@ -57,7 +65,7 @@ Stepper::Stepper(cpu::InstructionSet set, const rule::Parameters& parameters, st
     paper_.emplace(parameters, view, chunks);
   else
     viscous_.emplace(parameters.flow.viscous, grid, view, chunks);
-  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = melted_ = freed_ = moved_ =
+  dirty_ = dirty_next_ = changed_ = untold_ = untold_heat_ = untold_walls_ = melted_ = freed_ = moved_ =
       Tiles(view.nz, view.tile_rows());
   moved_.fill(all_words(view));
   dirty_.fill(all_words(view));  // the first state counts as changed everywhere
@@ -99,6 +107,7 @@ void Stepper::tell_matter(const state::ChangedRows& rows, state::Volume& volume)
   changed_.clear();
   for (const state::ChangedRow& row : rows) changed_.edit(row.z)[row.y >> view.tile_shift] |= row.words;
   note_matter(changed_);
+  untold_walls_.add(changed_);
   refresh(view, changed_, *walls_);
   if (sides_) refresh(view, changed_, *sides_);
   dirty_.add(changed_);
@@ -207,7 +216,8 @@ void Stepper::melt(const Job& job, simd::Books& books) {
   heat_->melt(job, changed_, books);
   note_matter(changed_);
   if (parameters_.has_materials()) untold_heat_.add(changed_);  // a cell takes on the heat of the first one
-  refresh(job.view, changed_, *walls_);
+  refresh(job.view, changed_, *walls_,
+          [this](int z, int r, TileRow words) { untold_walls_.edit(z)[r] |= words; });
   if (sides_) melted_.add(changed_);
   dirty_.add(changed_);
   if (viscous_) viscous_->note(changed_);
@@ -244,12 +254,15 @@ void Stepper::spread(const Job& job, simd::Books& books) {
 }
 
 void Stepper::tell_changes(state::ChangedBricks& changed) {
-  tell(untold_, state::ChangedBricks::kMatter, changed);
-  tell(untold_heat_, state::ChangedBricks::kHeat, changed);
+  using Changed = state::ChangedBricks;
+  tell(untold_, [&](TileRow words, int y, int z) { changed.mark_flow(words, y, z); });
+  tell(untold_walls_, [&](TileRow words, int y, int z) { changed.mark(Changed::kMatter, words, y, z); });
+  tell(untold_heat_, [&](TileRow words, int y, int z) { changed.mark(Changed::kHeat, words, y, z); });
 }
 
 // Tells the slices of one brick together, because a mark for each would cost as much again.
-void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const {
+template <class Mark>
+void Stepper::tell(Tiles& tiles, const Mark& mark) const {
   const int side = state::kBrickSide;
   for (int first = 0; first < tiles.slices(); first += side)
     for (int r = 0; r < tiles.rows(); ++r) {
@@ -258,8 +271,7 @@ void Stepper::tell(Tiles& tiles, state::ChangedBricks::Part part, state::Changed
       if (words == 0) continue;
       const int begin = r << tuning_.tile_shift;
       const int end = std::min(begin + (1 << tuning_.tile_shift), rows_);
-      for (int brick = begin / side; brick <= (end - 1) / side; ++brick)
-        changed.mark(part, words, brick, first / side);
+      for (int brick = begin / side; brick <= (end - 1) / side; ++brick) mark(words, brick, first / side);
     }
   tiles.clear();
 }

@@ -37,7 +37,8 @@ class Stepper final : public step::HostStepper {
   void heat(const Job& job, simd::Books& books);
   void melt(const Job& job, simd::Books& books);
   void gravity(const Job& job, simd::Books& books);
-  void tell(Tiles& tiles, state::ChangedBricks::Part part, state::ChangedBricks& changed) const;
+  template <class Mark>
+  void tell(Tiles& tiles, const Mark& mark) const;
   void note_matter(const Tiles& changed);  // by a phase after `source`
   void open_sides(const simd::View& view);
   void spread(const Job& job, simd::Books& books);
@@ -57,12 +58,12 @@ class Stepper final : public step::HostStepper {
   bool knows_light_ = false;  // the new irradiance of this step has been told
   std::optional<PaperFlow> paper_;
   std::optional<ViscousFlow> viscous_;
-  Tiles dirty_, dirty_next_;    // paper law: changed since the last gravity; working memory
-  Tiles changed_;               // changed by a phase
-  Tiles untold_, untold_heat_;  // changed since the last call of tell_changes; only their heat
-  Tiles moved_;                 // open border: matter has changed since the last source
-  Tiles melted_;                // tiles with melted solids that still count as sides
-  Tiles freed_;                 // tiles that lost sides since the last gravity began
+  Tiles dirty_, dirty_next_;                   // paper law: changed since the last gravity; working memory
+  Tiles changed_;                              // changed by a phase
+  Tiles untold_, untold_heat_, untold_walls_;  // changed since the last call of tell_changes, by part
+  Tiles moved_;                                // open border: matter has changed since the last source
+  Tiles melted_;                               // tiles with melted solids that still count as sides
+  Tiles freed_;                                // tiles that lost sides since the last gravity began
 };
 
 void add_implementations(step::Registry& registry);  // one for each instruction set, the narrowest first

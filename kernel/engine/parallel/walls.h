@@ -17,15 +17,19 @@ class Walls {
   Walls() = default;
   explicit Walls(const simd::View& view);
 
-  // Computes row y of slice z anew, after solids there have melted.
-  void refresh(const simd::View& view, int y, int z) {
+  // Computes row y of slice z anew, after solids there have melted. It returns the words that are others now.
+  simd::TileRow refresh(const simd::View& view, int y, int z) {
     std::uint64_t* walls = row(view, y, z);
     const std::size_t masks = view.word(0, y, z);
+    simd::TileRow changed = 0;
     for (int w = 0; w < view.words; ++w) {
       const std::size_t at = w;
-      walls[w] = view.solid[masks + at] | view.inert[masks + at];
+      const std::uint64_t beyond = w + 1 == view.words ? ~view.last_word : 0;
+      const std::uint64_t now = view.solid[masks + at] | view.inert[masks + at] | beyond;
+      if (walls[w] != now) changed |= simd::TileRow{1} << w;
+      walls[w] = now;
     }
-    walls[view.words - 1] |= ~view.last_word;
+    return changed;
   }
   const std::uint64_t* origin(const simd::View& view) const {
     return const_cast<Walls*>(this)->row(view, 0, 0);

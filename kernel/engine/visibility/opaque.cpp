@@ -59,53 +59,56 @@ Opaque::News Opaque::take_layer(const state::Volume& volume, int layer) {
   News news;
   const int first = kSide * layer, end = std::min(grid_.z, first + kSide);
   for (int z = first; z < end; ++z) forget_changes(z);
-  for (int y = 0; y < bricks_.y; ++y)
-    if (may_differ(volume, y, layer))
-      for (int z = first; z < end; ++z)
-        take_rows(volume, kSide * y, std::min(grid_.y, kSide * (y + 1)), z, news);
+  for (int brick = 0; brick < bricks_.y; ++brick) {
+    const std::uint64_t words = words_that_may_differ(volume, brick, layer);
+    if (words == 0) continue;
+    for (int z = first; z < end; ++z)
+      for (int y = kSide * brick; y < std::min(grid_.y, kSide * (brick + 1)); ++y)
+        take_row(volume, words, y, z, news);
+  }
   if (news.appeared || news.vanished) news.emptied = look_into(layer);
   return news;
 }
 
-// Tells if the volume may have changed in some brick at y and z.
-bool Opaque::may_differ(const state::Volume& volume, int y, int z) const {
+// Returns the words of the rows at y and z, in bricks, in which walls of the volume may have changed.
+std::uint64_t Opaque::words_that_may_differ(const state::Volume& volume, int y, int z) const {
   const state::ChangedBricks& changed = volume.changed;
-  if (changed.all_since(seen_)) return true;
-  const std::size_t first = bricks_.index(0, y, z), end = first + bricks_.x;
-  for (std::size_t brick = first; brick < end; ++brick)
-    if (changed.since(state::ChangedBricks::kMatter, seen_, brick)) return true;
-  return false;
+  const std::size_t words = plane_.row_words();
+  if (changed.all_since(seen_)) return ~std::uint64_t{0} >> (64 - words);
+  std::uint64_t result = 0;
+  for (int x = 0; x < bricks_.x; ++x)
+    if (changed.since(state::ChangedBricks::kWalls, seen_, bricks_.index(x, y, z)))
+      result |= std::uint64_t{1} << (x / kWordBricks);
+  return result;
 }
 
-// Takes over the rows from y = `begin` to before `end` of slice z.
-void Opaque::take_rows(const state::Volume& volume, int begin, int end, int z, News& news) {
-  const std::size_t words = plane_.row_words(), count = words * (end - begin);
-  const std::uint64_t *const now_solid = volume.solid.row(begin, z).data(), *const now_inert =
-                                                                                volume.inert.row(begin, z)
-                                                                                    .data();
-  std::uint64_t *const solid = solid_.row(begin, z).data(), *const opaque = plane_.row(begin, z).data();
-  const auto differs = [&](std::size_t w) {
-    return ((now_solid[w] | now_inert[w]) ^ opaque[w]) | (solid[w] ^ now_solid[w]);
-  };
-  std::uint64_t any = 0;  // most rows have not changed
-  for (std::size_t w = 0; w < count; ++w) any |= differs(w);
-  for (std::size_t w = 0; any != 0 && w < count; ++w) {
-    const std::uint64_t was = opaque[w], is = now_solid[w] | now_inert[w];
-    const std::uint64_t turned = solid[w] ^ now_solid[w];
-    if (((was ^ is) | turned) == 0) continue;
-    const int y = begin + static_cast<int>(w / words);
-    changed_[change_word(y, z)] |= std::uint64_t{1} << (y & 63);
-    changed_cells_.row(y, z)[w % words] = (was ^ is) | turned;
-    if (const std::uint64_t now = is & ~was; now != 0) {
-      const int x = static_cast<int>(64 * (w % words));
-      note_appeared({{x + std::countr_zero(now), y, z}, {x + 63 - std::countl_zero(now), y, z}}, news);
-    }
-    news.vanished |= (was & ~is) != 0;
-    news.turned |= turned != 0;
-    solid[w] = now_solid[w];
-    opaque[w] = is;
-    news.filled += write_bricks(was, is, w % words, y, z);
+// Takes over these words of a row.
+void Opaque::take_row(const state::Volume& volume, std::uint64_t words, int y, int z, News& news) {
+  const auto now_solid = volume.solid.row(y, z), now_inert = volume.inert.row(y, z);
+  const auto solid = solid_.row(y, z), opaque = plane_.row(y, z);
+  for (; words != 0; words &= words - 1) {
+    const std::size_t w = std::countr_zero(words);
+    const std::uint64_t now_opaque = now_solid[w] | now_inert[w];
+    if (now_opaque != opaque[w] || now_solid[w] != solid[w])  // seldom
+      take_word(now_solid[w], now_opaque, w, y, z, news);
   }
+}
+
+void Opaque::take_word(std::uint64_t now_solid, std::uint64_t now_opaque, std::size_t w, int y, int z,
+                       News& news) {
+  std::uint64_t &solid = solid_.row(y, z)[w], &opaque = plane_.row(y, z)[w];
+  const std::uint64_t was = opaque, turned = solid ^ now_solid;
+  changed_[change_word(y, z)] |= std::uint64_t{1} << (y & 63);
+  changed_cells_.row(y, z)[w] = (was ^ now_opaque) | turned;
+  if (const std::uint64_t now = now_opaque & ~was; now != 0) {
+    const int x = static_cast<int>(64 * w);
+    note_appeared({{x + std::countr_zero(now), y, z}, {x + 63 - std::countl_zero(now), y, z}}, news);
+  }
+  news.vanished |= (was & ~now_opaque) != 0;
+  news.turned |= turned != 0;
+  solid = now_solid;
+  opaque = now_opaque;
+  news.filled += write_bricks(was, now_opaque, w, y, z);
 }
 
 void Opaque::note_appeared(const Box& box, News& news) {

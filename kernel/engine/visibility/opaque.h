@@ -33,7 +33,7 @@ class Opaque {
     int filled = 0;  // number of bricks that held nothing, and hold something now; 1 more in another grid
     bool any() const { return appeared || vanished || turned; }
   };
-  // Takes over the masks of a volume. It compares the bricks whose matter may have changed since the last
+  // Takes over the masks of a volume. It compares the bricks whose walls may have changed since the last
   // call, by the volume's own record.
   News take(const state::Volume& volume, cpu::Workers& workers);
 
@@ -73,8 +73,9 @@ class Opaque {
   News take_layer(const state::Volume& volume, int layer);
   void forget_changes(int z);
   static void note_appeared(const Box& box, News& news);
-  bool may_differ(const state::Volume& volume, int y, int z) const;
-  void take_rows(const state::Volume& volume, int begin, int end, int z, News& news);
+  std::uint64_t words_that_may_differ(const state::Volume& volume, int y, int z) const;
+  void take_row(const state::Volume& volume, std::uint64_t words, int y, int z, News& news);
+  void take_word(std::uint64_t now_solid, std::uint64_t now_opaque, std::size_t w, int y, int z, News& news);
   int write_bricks(std::uint64_t was, std::uint64_t is, std::size_t w, int y, int z);
   int look_into(int layer);
   std::size_t change_word(std::size_t y, std::size_t z) const { return z * column_words_ + y / 64; }

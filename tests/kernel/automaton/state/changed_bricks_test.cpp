@@ -42,9 +42,14 @@ TEST(ChangedBricks, MarksTheBricksOfWords) {
   changed.mark(ChangedBricks::kHeat, 2, 2, 0);
   EXPECT_EQ(newer(changed, seen).size(), 11u);
   EXPECT_EQ(newer(changed, seen, ChangedBricks::kHeat).size(), 19u) << "matter takes its heat along";
+  EXPECT_EQ(newer(changed, seen, ChangedBricks::kWalls).size(), 11u) << "matter counts with its walls";
+  changed.mark_flow(4, 2, 1);
+  EXPECT_EQ(newer(changed, seen, ChangedBricks::kWalls).size(), 11u) << "what flows moves no wall";
+  EXPECT_EQ(newer(changed, seen).size(), 14u);
   changed.new_version();
   changed.mark_all();
-  EXPECT_EQ(newer(changed, seen).size(), brick_grid(kCells).cells());
+  for (const auto part : {ChangedBricks::kMatter, ChangedBricks::kHeat, ChangedBricks::kWalls})
+    EXPECT_EQ(newer(changed, seen, part).size(), brick_grid(kCells).cells());
 }
 
 TEST(ChangedBricks, WhereNobodyTellsEverythingHasChanged) {

@@ -27,11 +27,14 @@ inline std::string untold(const Volume& before, const state::ChangedBricks::Seen
   std::string found;
   for_each(whole(after.grid), [&](int x, int y, int z) {
     const std::size_t brick = bricks.index(x / 8, y / 8, z / 8);
-    if (after.changed.since(state::ChangedBricks::kMatter, seen, brick) || !found.empty()) return;
-    const bool heat_is_told = after.changed.since(state::ChangedBricks::kHeat, seen, brick);
+    const auto told = [&](state::ChangedBricks::Part part) { return after.changed.since(part, seen, brick); };
+    using Changed = state::ChangedBricks;
+    const bool matter = told(Changed::kMatter), heat = told(Changed::kHeat), walls = told(Changed::kWalls);
+    if ((matter && walls) || !found.empty()) return;
     state::for_each_field([&](const auto& row) {
       const auto &was = before.*row.column, &is = after.*row.column;
-      if (was.empty() || (row.name == "heat" && heat_is_told)) return;
+      const bool is_wall = row.name == "solid" || row.name == "inert";
+      if (was.empty() || (row.name == "heat" ? heat : matter && (walls || !is_wall))) return;
       if (value_at(was, x, y, z) != value_at(is, x, y, z)) found = row.name;
     });
     if (!found.empty())
