@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -114,6 +115,47 @@ TEST(ChangedBricks, FollowASimulation) {
     simulation.step();
     EXPECT_TRUE(changed().all_since(seen));
     EXPECT_FALSE(changed().all_since(changed().now())) << "followed again";
+  }
+}
+
+// Notes what the record says when light is asked for.
+class Onlooker final : public visibility::Provider {
+ public:
+  explicit Onlooker(bool& knows) : knows_(knows) {}
+  std::int64_t irradiance(const Volume& volume, const rule::Heat& /*heat*/, std::uint32_t /*step*/,
+                          Field<std::uint16_t>& /*result*/) override {
+    knows_ = !volume.changed.all_since(seen_);
+    seen_ = volume.changed.now();
+    return 0;
+  }
+
+ private:
+  bool& knows_;
+  ChangedBricks::Seen seen_;
+};
+
+// Pieces may fall before light is asked for. Where none does, the record is as good as before, whether
+// somebody has looked at the volume since the last step or not.
+TEST(ChangedBricks, KnowWhatChangedWhereNothingFalls) {
+  for (const bool looks : {false, true}) {
+    Volume start(kCells);
+    worlds::fill_inert(start, {0, 0, 0, kCells.x, 1, kCells.z});
+    worlds::fill(start, {70, 3, 1, 73, 5, 3}, 4096);
+    rule::Parameters parameters = worlds::paper_showcase();
+    parameters.heat.enabled = parameters.heat.radiation = true;
+    parameters.heat.sources.push_back({{{0, {16, 160, 16}, 1}}});
+    parameters.heat.visibility_every = 1;
+    parameters.pieces.fall = true;
+    bool knows = false;
+    run::Simulation simulation(parameters, start, run::implementations().all()[1], {},
+                               std::make_unique<Onlooker>(knows));
+    for (int step = 0; step < 4; ++step) {
+      simulation.step();
+      EXPECT_EQ(knows, step > 0) << "step " << step << (looks ? ", looked at" : "");
+      if (!looks) continue;
+      const ChangedBricks& changed = simulation.volume().changed;
+      EXPECT_FALSE(changed.all_since(changed.now()));
+    }
   }
 }
 
