@@ -1,7 +1,6 @@
 // These cases look at where liquid ends: at fronts of films on dry planes, and at a steep hump on a pool.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

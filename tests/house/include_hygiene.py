@@ -25,7 +25,7 @@ TABLE = {
     "cctype": "isalnum isalpha isdigit isprint isspace isupper islower tolower toupper",
     "charconv": "from_chars to_chars chars_format",
     "chrono": "chrono chrono_literals",
-    "cmath": "abs acos asin atan atan2 cbrt ceil copysign cos erf erfc exp exp2 floor fma fmod frexp hypot isfinite isinf isnan ldexp llround log log10 "
+    "cmath": "abs acos asin atan atan2 atanh cbrt ceil copysign cos erf erfc exp exp2 floor fma fmod frexp hypot isfinite isinf isnan ldexp llround log log10 "
              "log2 legendre lround nearbyint nextafter pow round sin sqrt tan tgamma trunc",
     "compare": "strong_ordering weak_ordering partial_ordering",
     "concepts": "convertible_to floating_point integral invocable same_as signed_integral unsigned_integral derived_from",
