@@ -50,12 +50,19 @@ std::vector<NamedField> fields_of(const state::Volume& volume, Grid grid) {
 
 std::string version() { return VOXMELT_VERSION; }
 
-std::vector<Implementation> implementations() {
+namespace {
+
+std::vector<Implementation> all_of(const step::Registry& registry) {
   std::vector<Implementation> all;
-  for (const step::Implementation& one : run::implementations().all())
+  for (const step::Implementation& one : registry.all())
     all.push_back({one.name, one.description, one.supported});
   return all;
 }
+
+}  // namespace
+
+std::vector<Implementation> implementations() { return all_of(run::implementations()); }
+std::vector<Implementation> devices() { return all_of(run::devices()); }
 
 std::vector<Format> formats() {
   std::vector<Format> all;

@@ -66,6 +66,7 @@ PYBIND11_MODULE(_voxmelt, m) {
   voxmelt::python::add_simulation(m);
   m.def("version", &voxmelt::version, doc("version"));
   m.def("implementations", &voxmelt::implementations, doc("implementations"));
+  m.def("devices", &voxmelt::devices, doc("devices"));
   m.def("formats", &voxmelt::formats, doc("formats"));
   m.def("changeable_keys", &voxmelt::changeable_keys, doc("changeable_keys"));
   m.def("with_changes", &voxmelt::with_changes, doc("with_changes"), py::arg("scene_text"), py::arg("more"));

@@ -45,12 +45,17 @@ struct Implementation {
 /// Lists all implementations of this build, the reference first.
 std::vector<Implementation> implementations();
 
+/// Lists the devices of this machine, such as graphics cards: "gpu:0", "gpu:1", ... Drivers are looked for in
+/// the first call, which may take a moment. "auto" takes none of them.
+std::vector<Implementation> devices();
+
 /// Tells how a scene is opened.
 struct Options {
   /// Holds one "path.to.key=value" each, as with --set. They are applied in order and checked like the file.
   /// A checkpoint takes none.
   std::vector<std::string> overrides;
-  /// Is a name from implementations(), or "auto" for the fastest one that this processor supports.
+  /// Is a name from implementations() or devices(), or "auto" for the fastest one that this processor
+  /// supports.
   std::string implementation = "auto";
   /// Is 1..1024, or 0 for as many as the machine has. No result depends on it.
   int threads = 0;

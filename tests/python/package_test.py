@@ -85,6 +85,13 @@ class SameAsTheProgram(InFolder):
                 self.assertEqual(line_of(simulation), program("digest", scene, "--steps", steps, "--quiet", cwd=ROOT))
                 self.assertTrue(simulation.ledgers().balance())
 
+    def test_devices_have_the_same_digest(self):
+        for device in voxmelt.devices():
+            simulation = voxmelt.Simulation(ROOT / "scenes/lesson_tubes.toml", implementation=device.name)
+            self.assertEqual(simulation.implementation(), device.name)
+            simulation.step(10)
+            self.assertEqual(line_of(simulation), APPROVED["lesson_tubes"]["10"])
+
     def test_arrays_are_those_of_an_export(self):
         for scene in ("chocolate_nuts", "bunny_small"):  # one with a field of 8 bits
             program("export", scene, "--steps", 30, "--out", self.folder / scene, "--quiet", cwd=ROOT)
