@@ -19,6 +19,9 @@ void add_info(CommandLine& program);
 void add_bench(CommandLine& program);
 void add_accuracy(CommandLine& program);
 
+// The program voxmelt-runs has this one.
+void add_sweep(CommandLine& program);
+
 // The program voxmelt-hardware has these.
 void add_verify(CommandLine& program);
 void add_rtl(CommandLine& program);

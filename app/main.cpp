@@ -22,6 +22,7 @@ constexpr const char* kIntroduction =
     "  voxmelt bench --quick                how fast, and how near to what this machine can do\n"
     "  voxmelt accuracy --quick             how well, against what mathematics says\n"
     "  voxmelt run bunny --checkpoint-every 60s, and after a power cut: voxmelt run --resume out/bunny\n"
+    "  voxmelt sweep plan.toml              many runs that differ in some keys, and one table\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
     "2 bad usage or input, 3 out of memory or disk, 4 interrupted.";

@@ -122,6 +122,18 @@ bool says_complete(const std::filesystem::path& folder) {
   return report.is_object() && report.contains("complete") && report["complete"] == true;
 }
 
+std::optional<Told> told_to(const std::filesystem::path& folder) {
+  if (!says_complete(folder)) return std::nullopt;
+  std::ifstream file(folder / "report.json");
+  const json report = json::parse(file, nullptr, false);
+  try {
+    return Told{report.at("steps").get<std::uint64_t>(), report.at("seed").get<std::uint64_t>(),
+                report.at("set").get<std::vector<std::string>>()};
+  } catch (const json::exception&) {  // somebody else's
+    return std::nullopt;
+  }
+}
+
 std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::ViscousLaw& law) {
   if (limit.limited_mass * 20 <= limit.mass) return {};
   const double share = static_cast<double>(limit.limited_mass) / static_cast<double>(limit.mass);

@@ -2,8 +2,11 @@
 // run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options.h"
 
@@ -24,6 +27,12 @@ std::string report_json(const scene::Scene& scene, const Common& common, const r
 
 // Tells if the report.json of this output folder says that the run is complete.
 bool says_complete(const std::filesystem::path& folder);
+// Returns what a complete run was told, as its report.json has it. Without one there is nothing.
+struct Told {
+  std::uint64_t steps = 0, seed = 0;
+  std::vector<std::string> sets;  // of --set
+};
+std::optional<Told> told_to(const std::filesystem::path& folder);
 
 // Says what the limit of the mobility withholds, if that is much. Otherwise the text is empty.
 std::string limit_text(const state::LimitCounts<state::Sum>& limit, const rule::ViscousLaw& law);

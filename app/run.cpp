@@ -18,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/beginning.h"
 #include "app/checkpoints.h"
@@ -26,6 +27,7 @@
 #include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
+#include "app/report.h"
 #include "app/resume.h"
 #include "app/run_journal.h"
 #include "app/run_record.h"
@@ -49,8 +51,10 @@ struct RunOptions {
   std::optional<std::string> checkpoint_every, wall_clock;
   std::string write;  // names of formats, separated by commas
   std::optional<std::uint32_t> write_every;
-  std::string journal;          // file; empty for none
-  std::string resume;           // folder; empty for a run from the scene's beginning
+  std::string journal;  // file; empty for none
+  std::string resume;   // folder; empty for a run from the scene's beginning
+  bool go_on = false;   // --continue
+  std::optional<std::string> keep;
   std::set<std::string> given;  // given options, among those that a resumed run may change
 };
 
@@ -107,6 +111,10 @@ void write_assumed_scene(const scene::Scene& scene, const io::OutputFolder& out)
   io::write_file(out.partial() / "scene.toml", scene.assumed_text);
 }
 
+std::string place_of(const RunOptions& options) {
+  return options.out.empty() ? "out/" + find_scene(options.common.scene).stem().string() : options.out;
+}
+
 PreparedRun prepare(const RunOptions& options) {
   const Common& common = options.common;
   PreparedRun run{load_scene(common), {}, {}, nullptr};
@@ -138,7 +146,8 @@ PreparedRun prepare(const RunOptions& options) {
   record.id = by_chance();
   record.journal = journal_text(options.journal);
   record.journal_name = options.journal;
-  const std::string place = options.out.empty() ? "out/" + scene.name : options.out;
+  record.left_out = left_out_of(options.keep);
+  const std::string place = place_of(options);
   if (!options.journal.empty()) scene.files.emplace_back(options.journal);
   keep_inputs(scene, {{"--out", place}, {"--report", common.report}});
   check_report_place(common, place);
@@ -172,7 +181,26 @@ std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   return run;
 }
 
-int run_scene(const RunOptions& options) {
+// Begins the run of --out, or goes on with it. A run that was told something else is not gone on with.
+std::optional<PreparedRun> prepare_to_continue(RunOptions options) {
+  options.resume = place_of(options);
+  const auto check = [&](const std::vector<std::string>& sets, std::optional<std::uint64_t> seed) {
+    if (sets != options.common.sets || (options.common.seed && seed != options.common.seed))
+      throw UsageError(
+          fmt::format("--continue: error: {} holds a run with another --set or --seed", options.resume));
+  };
+  if (const std::optional<Told> told = told_to(options.resume)) {
+    check(told->sets, told->seed);
+    if (options.steps && steps_wanted(*options.steps).count <= told->steps) options.steps.reset();
+  } else if (checkpoints_left(options.resume).empty()) {
+    return prepare(options);
+  }
+  std::optional<PreparedRun> run = prepare_to_resume(options);
+  if (run) check(run->record.common.sets, run->record.common.seed);
+  return run;
+}
+
+int run_scene(RunOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (options.resume.empty() && options.common.scene.empty())
     throw UsageError("error: a scene, or --resume FOLDER, is required; --help says more");
@@ -180,7 +208,15 @@ int run_scene(const RunOptions& options) {
     throw UsageError("--checkpoint-every: error: want a number of steps, or of seconds as in 60s");
   std::optional<std::chrono::seconds> wall_clock;
   if (options.wall_clock) wall_clock = duration_of(*options.wall_clock);
-  std::optional<PreparedRun> run = options.resume.empty() ? prepare(options) : prepare_to_resume(options);
+  if (options.go_on && options.steps && steps_wanted(*options.steps).further)
+    throw UsageError(fmt::format("--steps {}: error: --continue wants steps in all", *options.steps));
+  std::optional<PreparedRun> run;
+  if (options.go_on) {
+    run = prepare_to_continue(options);
+    options.resume = place_of(options);
+  } else {
+    run = options.resume.empty() ? prepare(options) : prepare_to_resume(options);
+  }
   if (run) run->wall_clock = wall_clock;
   if (run) return run_to_end(std::move(*run), start);
   if (!options.common.quiet) print("the run in {} is complete; --steps +N goes on\n", options.resume);
@@ -201,6 +237,8 @@ void add_run(CommandLine& program) {
       "go on with the run of this folder: interrupted, killed, out of room, or with more --steps");
   resume.excludes(scene);
   const auto begins = [&](Option option) { option.excludes(resume); };
+  begins(command.flag("--continue", options->go_on,
+                      "go on with the run that is in --out, if one is, and do nothing if it is complete"));
   command.option("--steps", options->steps,
                  "steps to run (default: the scene's); with --resume in all, or +N more");
   begins(command.option("--frame-every", options->frame_every, "steps between frames; 0: the first only"));
@@ -218,6 +256,9 @@ void add_run(CommandLine& program) {
                         "steps between states (default: between frames); 0: the first and the last only"));
   command.option("--wall-clock", options->wall_clock,
                  "end after this time (3h55m, 90s) as at a signal: with a checkpoint, and exit code 4");
+  begins(command.option("--keep", options->keep,
+                        "of frames, sheet, film, state those that a complete run keeps beside its report; "
+                        "as in sheet,film (default: all)"));
   begins(add_journal(command, options->journal));
   add_common(command, options->common);
   add_visibility(command, options->common);

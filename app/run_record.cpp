@@ -1,9 +1,11 @@
 #include "app/run_record.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +62,21 @@ void read_write(const json& object, RunRecord& record, const std::filesystem::pa
 
 }  // namespace
 
+std::vector<std::string> left_out_of(const std::optional<std::string>& keep) {
+  if (!keep) return {};
+  std::vector<std::string> left_out(kKept.begin(), kKept.end());
+  std::istringstream words(*keep + ",");
+  for (std::string name; std::getline(words, name, ',');)
+    if (std::erase(left_out, name) == 0 && name != "report")
+      throw UsageError("--keep " + *keep + ": error: '" + name +
+                       "' comes twice, or is not one of report, frames, sheet, film, state");
+  return left_out;
+}
+
+bool is_kept(const RunRecord& record, std::string_view name) {
+  return std::ranges::find(record.left_out, name) == record.left_out.end();
+}
+
 bool frame_is_due(const RunRecord& record, std::uint32_t step) {
   return step == 0 || (record.frame_every > 0 && (step % record.frame_every == 0 || step == record.steps));
 }
@@ -99,6 +116,7 @@ std::string json_of(const RunRecord& record) {
     result["write"] = record.write;
     result["write_every"] = record.write_every;
   }
+  if (!record.left_out.empty()) result["left_out"] = record.left_out;
   if (common.seed) result["seed"] = *common.seed;
   if (!record.journal.empty()) {
     result["journal"] = record.journal;
@@ -119,6 +137,7 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     if (!render::setting_named(record.setting))
       checkpoint::fail(file, "its head: command.setting is none of this program's");
     record.checkpoint_every = object.at("checkpoint_every").get<std::string>();
+    if (object.contains("left_out")) record.left_out = object.at("left_out").get<std::vector<std::string>>();
     if (object.contains("write")) read_write(object, record, file);
     record.id = object.at("id").get<std::string>();
     if (object.contains("fps")) record.frames_per_second = whole<int>(object.at("fps"), "fps", file);

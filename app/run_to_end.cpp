@@ -95,6 +95,7 @@ class Run {
     return {.count = frames_due_before(record(), steps()) + (frame_is_due(record(), steps()) ? 1 : 0),
             .threads = thread_count(common()),
             .frames_per_second = record().frames_per_second,
+            .film = is_kept(record(), "film"),
             .stop = interrupted};
   }
   RunSeconds seconds_now() const {
@@ -151,13 +152,20 @@ class Run {
 
   std::string put_into_place(bool complete) {
     // Where there is no room for the last state, there still is room for the rest.
-    if (complete)
+    if (complete && is_kept(record(), "state"))
       (void)tried(
           [&] { checkpoints_.write_last(record(), *film_, simulation_, watch_.seen(), seconds_now()); });
     std::string report = report_json(run_.scene, common(), simulation_, seconds_now(), complete);
     io::write_file(out().partial() / "report.json", report);
+    if (complete) remove_what_is_not_kept();
     out().commit();
     return report;
+  }
+
+  void remove_what_is_not_kept() const {
+    for (const auto& [name, place] : {std::pair("frames", "frames"), std::pair("sheet", "contact_sheet.png"),
+                                      std::pair("film", "film.mp4")})
+      if (!is_kept(record(), name)) std::filesystem::remove_all(out().partial() / place);
   }
 
   // Keeps what was made before the failure. If nothing was, it is the failure's.
@@ -182,9 +190,10 @@ class Run {
   }
 
   void print_outputs() const {
-    print("{} frames      {}/frames/\ncontact sheet  {}/contact_sheet.png\n", film_->frame_count(), place_,
-          place_);
-    print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
+    if (is_kept(record(), "frames")) print("{} frames      {}/frames/\n", film_->frame_count(), place_);
+    if (is_kept(record(), "sheet")) print("contact sheet  {}/contact_sheet.png\n", place_);
+    if (is_kept(record(), "film"))
+      print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
     print("report         {}/report.json\n", place_);
     written_.print_place(place_);
     if (!run_.scene.assumed.empty())

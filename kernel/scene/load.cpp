@@ -15,6 +15,7 @@
 #include "kernel/scene/look_reader.h"
 #include "kernel/scene/memory.h"
 #include "kernel/scene/model_scene.h"
+#include "kernel/scene/overrides.h"
 #include "kernel/scene/parameter_readers.h"
 #include "kernel/scene/scene.h"
 #include "kernel/scene/start.h"
@@ -195,6 +196,15 @@ Scene load_settings(const std::string& settings, const std::string& origin) {
   root.finish();
   scene.settings = settings;
   return scene;
+}
+
+void check_overrides(const std::string& settings, const std::vector<std::string>& overrides) {
+  Value document = parse_text(settings, std::make_shared<const Origin>(Origin{"the scene", {}, false}));
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  Scene scene;
+  Reader root(document, "");
+  read_settings(root, scene);
+  root.finish();
 }
 
 void fill(Scene& scene, state::Volume cells) {

@@ -28,6 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 Frames::Frames(std::filesystem::path folder, const Plan& plan)
     : folder_(std::move(folder)),
+      has_film_(plan.film),
       sheet_(plan.count),
       video_(folder_ / "film.mp4", plan.frames_per_second, {.stop = plan.stop}),
       film_(
@@ -50,12 +51,12 @@ std::filesystem::path Frames::file_of(std::size_t frame) const {
 void Frames::add(Image image, std::string label) {
   const Frame frame{labels_.size(), std::make_shared<const Image>(std::move(image))};
   files_.put(frame);
-  film_.put(frame);
+  if (has_film_) film_.put(frame);
   labels_.push_back(std::move(label));
 }
 
 void Frames::keep(std::string label) {
-  film_.put({labels_.size(), nullptr});
+  if (has_film_) film_.put({labels_.size(), nullptr});
   labels_.push_back(std::move(label));
 }
 
@@ -78,6 +79,7 @@ std::string Frames::finish() {
               sheet_.sheet(labels_, [this](std::size_t frame) { return read_png(file_of(frame)); }));
   encode_seconds_ += seconds_since(begin);
 
+  if (!has_film_) return "";
   // The message need not name the folder.
   const std::string problem = video_.finish().value_or("");
   return problem.substr(std::min(problem.size(), problem.find("no film")));

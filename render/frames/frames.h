@@ -23,6 +23,7 @@ class Frames {
     std::size_t frame_bytes = 0;   // bytes of a picture in memory; few large ones may wait
     int threads = 1;               // with one, all work is done in turn; with more, beside the caller
     int frames_per_second = 12;    // of the film
+    bool film = true;              // without, none is made
     std::function<bool()> stop{};  // says that the film should not be waited for; may be empty
   };
 
@@ -61,6 +62,7 @@ class Frames {
   void write_file(const Frame& frame);
 
   std::filesystem::path folder_;
+  bool has_film_;
   std::vector<std::string> labels_;
   SheetFrames sheet_;
   VideoWriter video_;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 
 #include "report/accuracy/svg.h"
@@ -18,27 +17,6 @@ std::string typeset(const std::string& number) {
   std::string out;
   for (const char c : number) out += c == '-' ? std::string("−") : std::string(1, c);
   return out;
-}
-
-std::string legend(const Chart& chart) {
-  std::string out;
-  std::size_t colour = 0;
-  bool exact = false;
-  for (const Curve& curve : chart.curves) {
-    if (curve.points.empty()) continue;
-    if (!curve.exact)
-      out += fmt::format("<span><i class=\"b{}\"></i>{}</span>", colour++ % kColours, escaped(curve.name));
-    else if (!exact) {
-      out.insert(0, "<span><i class=\"line\"></i>exact</span>");
-      exact = true;
-    }
-  }
-  return out;
-}
-
-std::string figure(const Chart& chart) {
-  return fmt::format("<figure><figcaption>{}</figcaption><div class=\"legend\">{}</div>{}</figure>\n",
-                     escaped(chart.title), legend(chart), chart_svg(chart));
 }
 
 std::string table_row(const Row& row) {
@@ -72,7 +50,7 @@ std::string pill(const Outcome& outcome) {
 std::string card(const Found& found) {
   std::string rows, charts;
   for (const Row& row : found.outcome.rows) rows += table_row(row);
-  for (const Chart& chart : found.outcome.charts) charts += figure(chart);
+  for (const Chart& chart : found.outcome.charts) charts += page::chart_figure(chart_of(chart));
   return fmt::format(
       "<section class=\"card\" id=\"{}\"><div class=\"head\"><h3>{}</h3>{}</div>\n<p>{}</p>\n<div "
       "class=\"rows\"><table>"

@@ -4,96 +4,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
-#include "report/svg/axis.h"
 #include "report/svg/svg.h"
 
 namespace voxmelt::accuracy {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 300, kLeft = 68, kRight = 506, kTop = 14, kBottom = 252;
-constexpr std::size_t kJoinUpTo = 30;  // with more points, dots alone make the line
-
-using page::Axis;
 using page::escaped;
 using page::line;
 using page::text;
 
-std::string tick_text(double value) {
-  std::string out = fmt::format("{:g}", value);
-  if (out[0] == '-') out.replace(0, 1, "−");
-  return out;
-}
-
-std::string path(const Curve& curve, const Axis& x, const Axis& y) {
-  std::string out;
-  for (const Point& p : curve.points)
-    out += fmt::format("{}{:.1f} {:.1f}", out.empty() ? "M" : "L", x(p.x), y(p.y));
-  return out;
-}
-
-struct Range {
-  double low = 0, high = 1;
-};
-Range range(const Chart& chart, double Point::*member) {
-  bool first = true;
-  Range all;
-  for (const Curve& curve : chart.curves)
-    for (const Point& p : curve.points) {
-      const double value = p.*member;
-      all = first ? Range{value, value} : Range{std::min(all.low, value), std::max(all.high, value)};
-      first = false;
-    }
-  return all;
+page::Curve curve_of(const Curve& curve) {
+  page::Curve drawn{.name = curve.name, .joined = curve.joined};
+  for (const Point& p : curve.points) drawn.points.push_back({p.x, p.y});
+  if (curve.exact) drawn.mark = page::Mark::exact;
+  return drawn;
 }
 
 }  // namespace
 
-std::string chart_svg(const Chart& chart) {
-  const Range xs = range(chart, &Point::x);
-  Range ys = range(chart, &Point::y);
-  if (chart.band) ys = {std::min(ys.low, -1.25 * *chart.band), std::max(ys.high, 1.25 * *chart.band)};
-  if (!chart.logarithmic_y && !chart.band && ys.low > 0 && ys.low < 0.5 * ys.high) ys.low = 0;
-  const Axis x(xs.low, xs.high, chart.logarithmic_x, kLeft, kRight);
-  const Axis y(ys.low, ys.high, chart.logarithmic_y, kBottom, kTop);
-
-  std::string svg = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", kWidth, kHeight,
-                                escaped(chart.title));
-  for (const double tick : y.ticks()) {
-    svg += line(kLeft, y(tick), kRight, y(tick), tick == 0 ? "zero" : "grid");
-    svg += text(kLeft - 7, y(tick) + 4, "end", tick_text(tick));
-  }
-  for (const double tick : x.ticks()) {
-    svg += line(x(tick), kBottom, x(tick), kBottom + 4, "mark");
-    svg += text(x(tick), kBottom + 18, "middle", tick_text(tick));
-  }
-  svg += line(kLeft, kBottom, kRight, kBottom, "mark");
-  if (chart.band)
-    svg += fmt::format(R"(<rect class="band" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", kLeft,
-                       y(*chart.band), kRight - kLeft, y(-*chart.band) - y(*chart.band));
-  svg += text((kLeft + kRight) / 2, kHeight - 8, "middle", chart.x_label, "label");
-  svg += fmt::format(
-      R"svg(<text class="label" transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)svg",
-      (kTop + kBottom) / 2, escaped(chart.y_label));
-
-  std::size_t colour = 0;
-  for (const Curve& curve : chart.curves) {
-    if (curve.points.empty()) continue;
-    if (curve.exact) {
-      svg += fmt::format(R"(<path class="exact" d="{}"/>)", path(curve, x, y));
-      continue;
-    }
-    const std::size_t c = colour++ % kColours;
-    const bool joined = curve.points.size() <= kJoinUpTo;
-    if (joined && curve.joined)
-      svg += fmt::format(R"(<path class="joined k{}" d="{}"/>)", c, path(curve, x, y));
-    for (const Point& p : curve.points)
-      svg += fmt::format(
-          R"(<circle class="f{}" cx="{:.1f}" cy="{:.1f}" r="{}"><title>{}: {:.6g}, {:.6g}</title></circle>)",
-          c, x(p.x), y(p.y), joined ? 3.4 : 2.2, escaped(curve.name), p.x, p.y);
-  }
-  return svg + "</svg>";
+page::Chart chart_of(const Chart& chart) {
+  page::Chart drawn{.title = chart.title,
+                    .x_label = chart.x_label,
+                    .y_label = chart.y_label,
+                    .logarithmic_x = chart.logarithmic_x,
+                    .logarithmic_y = chart.logarithmic_y,
+                    .band = chart.band};
+  for (const Curve& curve : chart.curves) drawn.curves.push_back(curve_of(curve));
+  return drawn;
 }
 
 std::string overview_svg(const Report& report) {

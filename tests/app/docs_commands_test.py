@@ -35,7 +35,7 @@ power = 9
 width = 64
 height = 64
 """
-WORDS = {"SCENE": "scene.toml", "FILE": "last.checkpoint", "out/NAME": "out/bunny", "DIR/scene.toml": "exported/scene.toml", "NAME": "out/bunny", "DIR": "dir", "N": "2", "X,Y": "20,9"}
+WORDS = {"SCENE": "scene.toml", "PLAN.toml": "plan.toml", "FILE": "last.checkpoint", "out/NAME": "out/bunny", "DIR/scene.toml": "exported/scene.toml", "NAME": "out/bunny", "DIR": "dir", "N": "2", "X,Y": "20,9"}
 TAKES_LONG = re.compile(r"voxmelt (bench|accuracy|view)\b")
 # Of commands that differ, or stop, on purpose.
 OTHER_CODES = {"--plant": (0, 1)}
@@ -78,6 +78,8 @@ class Reader:
         (self.folder / "scene.toml").write_text(SCENE)
         self.must("voxmelt run scene.toml --out out/bunny --quiet")
         self.must("voxmelt run scene.toml --out out/long --quiet")
+        (self.folder / "plan.toml").write_text('scene = "scene.toml"\n[axes]\nheat.gamma = [0.05, 0.1]\n')
+        self.must("voxmelt sweep plan.toml --quiet")
         self.must("voxmelt export scene.toml --out exported --quiet")
         shutil.copytree(self.folder / "out", self.folder / "finished")
         for name in ("hwmodel", "tests"):

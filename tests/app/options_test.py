@@ -12,7 +12,7 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, write
 
-COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "rtl", "explore", "list", "info")
+COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "rtl", "explore", "list", "info", "sweep")
 # What a value of each kind must not be.
 BAD = {
     "UINT": ["", "x", "-1", "1.5", "99999999999999999999", "0x", "1 2", "nan", "\u0661"],
@@ -32,7 +32,7 @@ def options(command):
     text = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True).stdout
     found = []
     for line in text.splitlines():
-        match = re.match(r"  (?:-\w,)?(--[a-z-]+)(\{\w+\})?(?:[ ](KEY=VALUE|[A-Z]+|\[[A-Z]+))?", line)
+        match = re.match(r"  (?:-\w,)?(--[a-z-]+)(\{\w+\})?(?:[ ](KEY=VALUE|[A-Z]+\b|\[[A-Z]+))?", line)
         if match and match[1] not in ("--help", "--version"):
             found.append((match[1], None if match[2] else match[3] and match[3].strip("[")))
     return found
@@ -43,13 +43,14 @@ class Options(unittest.TestCase):
         self.temporary = tempfile.TemporaryDirectory()
         self.folder = Path(self.temporary.name)
         self.scene = write(self.folder, SMALL).name
+        write(self.folder, f'scene = "{self.scene}"\n[axes]\nheat.gamma = [0.1]\n', "plan.toml")
 
     def tearDown(self):
         self.temporary.cleanup()
 
     def first(self, command):
         return {"bench": [], "accuracy": [], "list": ["scenes"], "export": [self.scene, "--out", "o"],
-                "explore": [self.scene, "--device", "zu7ev"], "rtl": [self.scene, "--out", "o"]}.get(command, [self.scene])
+                "explore": [self.scene, "--device", "zu7ev"], "rtl": [self.scene, "--out", "o"], "sweep": ["plan.toml"]}.get(command, [self.scene])
 
     def refused(self, *arguments):
         begin = time.monotonic()
@@ -64,7 +65,7 @@ class Options(unittest.TestCase):
         code = process.returncode
         self.assertEqual(len(said.splitlines()), 1, said)
         self.assertTrue(said.endswith("\n") and said[:-1].isprintable(), repr(said))
-        left = [p for p in self.folder.iterdir() if p.name != self.scene]
+        left = [p for p in self.folder.iterdir() if p.name not in (self.scene, "plan.toml")]
         for path in left:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
         self.assertEqual(left, [], "left something behind")

@@ -81,6 +81,7 @@ ALLOWED = {
     "report/hardware": ["report/svg"],
     "report/accuracy": ["accuracy", "accuracy/front", "report/svg"],
     "report/bench": ["measure"],
+    "report/runs": ["report/svg"],
     "bench": ["accuracy/picture", "kernel/engine/gpu", "measure", PIPELINE, PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
     "measure": ["measure/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
@@ -102,6 +103,7 @@ ALLOWED = {
     # The page's server: all work is done by the library.
     "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],
     "library/journal": ["include/voxmelt", "kernel/scene/scene.h"],
+    "app/runs": ["app", "report/runs", "kernel/scene", "kernel/scene/text", "kernel/run/io", "kernel/run/checkpoint", "kernel/run/opening"],
     "app": ["library/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "hwmodel/rtl/host", "hwmodel/rtl/write", "hwmodel/check/channel_trace.h",
             "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
@@ -125,10 +127,10 @@ THIRD_PARTY = {
     "jpeglib.h": ["app/view/encode.cpp"],
     "benchmark/": ["bench"],
     "nlohmann/": ["kernel/scene/mesh_file", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/memory", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
-                  "report/bench", "report/hardware", "app", "app/view"],
+                  "report/bench", "report/hardware", "app", "app/runs", "app/view"],
     "fmt/": ["hwmodel/rtl/write", "kernel/run/trial", "kernel/scene/text", "kernel/scene/shape", "kernel/scene/mesh_file", "kernel/scene/voxel_file", "kernel/scene", "hwmodel/check", "hwmodel/pipeline/check", "hwmodel/pipeline/report", "hwmodel/caster/check",
              "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "measure", "accuracy", "accuracy/front", "report/svg", "report/accuracy", "report/bench",
-             "report/hardware", "app", "library/journal", "app/view"],
+             "report/hardware", "report/runs", "app", "app/runs", "library/journal", "app/view"],
 }
 RULE_CALL = re.compile(r"\brule::[a-z_0-9]+\(")
 LONGEST = 500
