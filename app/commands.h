@@ -19,8 +19,9 @@ void add_info(CommandLine& program);
 void add_bench(CommandLine& program);
 void add_accuracy(CommandLine& program);
 
-// The program voxmelt-runs has this one.
+// The program voxmelt-runs has these.
 void add_sweep(CommandLine& program);
+void add_plot(CommandLine& program);
 
 // The program voxmelt-hardware has these.
 void add_verify(CommandLine& program);

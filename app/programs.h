@@ -21,6 +21,7 @@ inline constexpr std::array kElsewhere{
     Elsewhere{"view", "voxmelt-view", "Melt it by hand, in a browser: sources, vents, numbers, camera",
               VOXMELT_VIEW != 0},
     Elsewhere{"sweep", "voxmelt-runs", "Make many runs that differ in some keys, and one table of them"},
+    Elsewhere{"plot", "voxmelt-runs", "Draw the curves of one run, or of many, as one SVG"},
     Elsewhere{"bench", "voxmelt-measure",
               "Throughput, beside what this machine could do at most and the paper's program"},
     Elsewhere{"accuracy", "voxmelt-measure",

@@ -4,6 +4,9 @@
 
 int main(int argc, char** argv) {
   using namespace voxmelt::app;
-  const auto add_commands = [](CommandLine& program) { add_sweep(program); };
+  const auto add_commands = [](CommandLine& program) {
+    add_sweep(program);
+    add_plot(program);
+  };
   return run_program("Many runs of voxmelt.", add_commands, argc, argv);
 }

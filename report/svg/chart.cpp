@@ -66,7 +66,8 @@ std::string frame_of(const Chart& chart, const Axis& x, const Axis& y) {
 std::string marks_of(const Curve& curve, std::size_t colour, const Axis& x, const Axis& y) {
   if (curve.mark == Mark::exact) return fmt::format(R"(<path class="exact" d="{}"/>)", path(curve, x, y));
   if (curve.mark == Mark::line)
-    return fmt::format(R"(<path class="joined k{}" d="{}"><title>{}</title></path>)", colour,
+    return fmt::format(R"(<path class="joined k{}"{} d="{}"><title>{}</title></path>)", colour,
+                       curve.dashes.empty() ? "" : " stroke-dasharray=\"" + curve.dashes + "\"",
                        path(curve, x, y), escaped(curve.name));
   std::string svg;
   const bool joined = curve.points.size() <= kJoinUpTo;

@@ -26,6 +26,7 @@ struct Curve {
   Mark mark = Mark::dots;
   bool joined = true;                   // few dots are joined by a thin line
   std::optional<std::size_t> colour{};  // a colour of its own; else the next one
+  std::string dashes{};                 // of a line: lengths of marks and gaps; empty for none
 };
 
 struct Chart {

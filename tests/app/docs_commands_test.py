@@ -79,6 +79,7 @@ class Reader:
         self.must("voxmelt run scene.toml --out out/bunny --quiet")
         self.must("voxmelt run scene.toml --out out/long --quiet")
         (self.folder / "plan.toml").write_text('scene = "scene.toml"\n[axes]\nheat.gamma = [0.05, 0.1]\n')
+        self.must("voxmelt run scene.toml --write csv --out out/lava --quiet")
         self.must("voxmelt sweep plan.toml --quiet")
         self.must("voxmelt export scene.toml --out exported --quiet")
         shutil.copytree(self.folder / "out", self.folder / "finished")

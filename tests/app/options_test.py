@@ -12,7 +12,7 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, write
 
-COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "rtl", "explore", "list", "info", "sweep")
+COMMANDS = ("run", "digest", "export", "render", "bench", "accuracy", "verify", "rtl", "explore", "list", "info", "sweep", "plot")
 # What a value of each kind must not be.
 BAD = {
     "UINT": ["", "x", "-1", "1.5", "99999999999999999999", "0x", "1 2", "nan", "\u0661"],
@@ -44,13 +44,14 @@ class Options(unittest.TestCase):
         self.folder = Path(self.temporary.name)
         self.scene = write(self.folder, SMALL).name
         write(self.folder, f'scene = "{self.scene}"\n[axes]\nheat.gamma = [0.1]\n', "plan.toml")
+        write(self.folder, "step,liquid_cells\n0,0\n1,5\n", "steps.csv")
 
     def tearDown(self):
         self.temporary.cleanup()
 
     def first(self, command):
         return {"bench": [], "accuracy": [], "list": ["scenes"], "export": [self.scene, "--out", "o"],
-                "explore": [self.scene, "--device", "zu7ev"], "rtl": [self.scene, "--out", "o"], "sweep": ["plan.toml"]}.get(command, [self.scene])
+                "explore": [self.scene, "--device", "zu7ev"], "rtl": [self.scene, "--out", "o"], "sweep": ["plan.toml"], "plot": ["steps.csv"]}.get(command, [self.scene])
 
     def refused(self, *arguments):
         begin = time.monotonic()
@@ -65,7 +66,7 @@ class Options(unittest.TestCase):
         code = process.returncode
         self.assertEqual(len(said.splitlines()), 1, said)
         self.assertTrue(said.endswith("\n") and said[:-1].isprintable(), repr(said))
-        left = [p for p in self.folder.iterdir() if p.name not in (self.scene, "plan.toml")]
+        left = [p for p in self.folder.iterdir() if p.name not in (self.scene, "plan.toml", "steps.csv")]
         for path in left:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
         self.assertEqual(left, [], "left something behind")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 PROGRAM = Path(sys.argv[1]).resolve()
 ELSEWHERE = {"verify": "voxmelt-hardware", "explore": "voxmelt-hardware", "bench": "voxmelt-measure",
-             "accuracy": "voxmelt-measure", "sweep": "voxmelt-runs"}
+             "accuracy": "voxmelt-measure", "sweep": "voxmelt-runs", "plot": "voxmelt-runs"}
 LISTED = {"devices": "voxmelt-hardware", "memories": "voxmelt-hardware", "presets": "voxmelt-hardware", "faults": "voxmelt-hardware", "cases": "voxmelt-measure"}
 
 
