@@ -14,6 +14,7 @@ void add_digest(CommandLine& program);
 void add_export(CommandLine& program);
 void add_render(CommandLine& program);
 void add_info(CommandLine& program);
+void add_new(CommandLine& program);
 
 // The program voxmelt-measure has these.
 void add_bench(CommandLine& program);

@@ -22,6 +22,7 @@ constexpr const char* kIntroduction =
     "  voxmelt bench --quick                how fast, and how near to what this machine can do\n"
     "  voxmelt accuracy --quick             how well, against what mathematics says\n"
     "  voxmelt run bunny --checkpoint-every 60s, and after a power cut: voxmelt run --resume out/bunny\n"
+    "  voxmelt new candle mine.toml         a scene with comments, to begin from\n"
     "  voxmelt sweep plan.toml              many runs that differ in some keys, and one table\n"
     "  voxmelt list scenes\n\n"
     "A scene is a TOML file; docs/scenes.md explains its keys. Exit codes: 0 done, 1 a check failed,\n"
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
     for (const Elsewhere& row : kElsewhere)
       if (row.there) program.add(std::string(row.command), std::string(row.description));
     add_info(program);
+    add_new(program);
     add_list(
         program,
         {{"implementations", list_implementations}, {"scenes", list_scenes}, {"features", list_features}});

@@ -408,7 +408,7 @@ class Commands(unittest.TestCase):
         told = self.good("--help")
         self.assertIn("voxmelt run cello", told)
         view = ["view"] if Path(PROGRAM).with_name("voxmelt-view").exists() else []  # where its libraries are
-        commands = ["run", "digest", "export", "render", *view, "sweep", "plot", "bench", "accuracy", "verify", "rtl", "explore", "info", "list"]
+        commands = ["run", "digest", "export", "render", *view, "sweep", "plot", "bench", "accuracy", "verify", "rtl", "explore", "info", "new", "list"]
         self.assertEqual(re.findall(r"(?m)^  ([a-z]\w*) +\S", told.split("Subcommands:")[1]), commands)
         for command in commands:
             self.assertIn("--", self.good(command, "--help"))
