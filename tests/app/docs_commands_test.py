@@ -138,7 +138,9 @@ def offences(root, reader, known):
             counts[0] += 1
         for number, scene in enumerate(re.findall(r"^```toml\n(.*?)^```", text, re.M | re.S), 1):
             (reader.folder / "fragment.toml").write_text(scene)
-            if wrong := reader.offence("voxmelt digest fragment.toml --steps 1"):
+            plan = "\n[axes]\n" in scene  # of a sweep
+            if wrong := reader.offence("voxmelt sweep fragment.toml --emit make" if plan
+                                       else "voxmelt digest fragment.toml --steps 1"):
                 found.append(f"{name}: its scene {number}: {wrong}")
             counts[1] += 1
         for pattern in tests_named(text):
