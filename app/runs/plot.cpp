@@ -56,6 +56,7 @@ Shown read_run(const std::string& given) {
 // A name that two runs have is none: they are named as they were given.
 std::vector<Shown> read_runs(const std::vector<std::string>& given) {
   std::vector<Shown> runs;
+  runs.reserve(given.size());
   for (const std::string& one : given) runs.push_back(read_run(one));
   const std::vector<Shown> all = runs;
   for (std::size_t i = 0; i < runs.size(); ++i)

@@ -69,8 +69,8 @@ std::string plot_svg(const std::vector<Chart>& charts) {
       width, height, kPlotStyle);
   svg += names.svg;
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    const double x = kMargin + wide * static_cast<double>(i % columns);
-    const double y = top + high * static_cast<double>(i / columns);
+    const std::size_t row = i / columns, column = i % columns;
+    const double x = kMargin + wide * static_cast<double>(column), y = top + high * static_cast<double>(row);
     svg += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">", x, y) +
            text(0, 14, "start", charts[i].title, "title") +
            fmt::format("<g transform=\"translate(0 {:.1f})\">", kTitle) + chart_marks(charts[i]) +

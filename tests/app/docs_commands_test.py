@@ -138,7 +138,7 @@ def offences(root, reader, known):
             counts[0] += 1
         for number, scene in enumerate(re.findall(r"^```toml\n(.*?)^```", text, re.M | re.S), 1):
             (reader.folder / "fragment.toml").write_text(scene)
-            plan = "\n[axes]\n" in scene  # of a sweep
+            plan = "\n[axes]" in scene  # of a sweep
             if wrong := reader.offence("voxmelt sweep fragment.toml --emit make" if plan
                                        else "voxmelt digest fragment.toml --steps 1"):
                 found.append(f"{name}: its scene {number}: {wrong}")
