@@ -85,7 +85,7 @@ exit $failed
 
 Emitted emit(const std::string& engine, const std::vector<PlannedRun>& runs, const SweepFolder& folder,
              const std::vector<std::string>& more, std::size_t per_task, int threads) {
-  const fs::path place = folder.place();
+  const fs::path& place = folder.place();
   const std::string shown = shell_word(seen_from_here(place));
   if (engine == "make") {
     io::write_file(place / "Makefile", makefile(runs, folder, more));
