@@ -9,7 +9,7 @@ if [ ! -x $voxmelt ]; then
   echo "Building voxmelt takes some two minutes on two cores, once." >&2
   [ $# -gt 0 ] || echo "Then look at out/cello/contact_sheet.png." >&2
 fi
-command -v ffmpeg > /dev/null || echo "Without ffmpeg there are pictures and no film: apt-get install ffmpeg" >&2
+command -v ffmpeg > /dev/null || echo "Without ffmpeg the film is WebP, not MP4: apt-get install ffmpeg" >&2
 cmake/install-dependencies.sh build
 cmake --preset first > build/configure.log || { cat build/configure.log; exit 1; }
 cmake --build --preset first

@@ -106,12 +106,12 @@ void Film::check() {
   drawing_.check();
 }
 
-std::string Film::finish() {
+render::FilmMade Film::finish() {
   const auto waiting = std::chrono::steady_clock::now();
   drawing_.wait();
-  const std::string problem = frames_.finish();
+  render::FilmMade made = frames_.finish();
   seconds_.wait += seconds_since(waiting);
-  return problem;
+  return made;
 }
 
 RunSeconds Film::seconds() const {

@@ -49,8 +49,8 @@ class Film {
   // Throws the error that stopped a frame. A run that calls it often ends soon after such an error.
   void check();
 
-  // Writes contact_sheet.png and film.mp4. Returns the reason if there is no film, else nothing.
-  std::string finish();
+  // Writes contact_sheet.png, and film.mp4 or film.webp.
+  render::FilmMade finish();
 
   std::size_t frame_count() const { return frames_.count(); }
   RunSeconds seconds() const;  // called after finish(); without the total

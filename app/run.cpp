@@ -48,6 +48,7 @@ struct RunOptions {
   std::optional<std::string> size;
   std::string setting = "normal";
   std::optional<int> fps;
+  std::optional<std::string> film;
   std::optional<std::string> checkpoint_every, wall_clock;
   std::string write;  // names of formats, separated by commas
   std::optional<std::uint32_t> write_every;
@@ -138,6 +139,7 @@ PreparedRun prepare(const RunOptions& options) {
   record.setting = options.setting;
   record.checkpoint_every = options.checkpoint_every.value_or("");
   record.frames_per_second = options.fps.value_or(record.frames_per_second);
+  if (options.film) record.film = film_named(*options.film);
   record.write = formats_named(options.write);
   record.write_every = options.write_every.value_or(record.frame_every);
   if (options.write_every && record.write.empty())
@@ -175,6 +177,7 @@ std::optional<PreparedRun> prepare_to_resume(const RunOptions& options) {
   if (given("--quiet")) common.quiet = true;
   if (options.checkpoint_every) record.checkpoint_every = *options.checkpoint_every;
   if (options.fps) record.frames_per_second = *options.fps;
+  if (options.film) record.film = film_named(*options.film);
   find_implementation(common);
   check_report_place(common, found->place.string());
   if (!found->note.empty()) say("warning: " + found->note);
@@ -228,7 +231,7 @@ int run_scene(RunOptions options) {
 void add_run(CommandLine& program) {
   auto options = std::make_shared<RunOptions>();
   const Command command =
-      program.add("run", "Melt a scene: frames (PNG), contact sheet, film (with ffmpeg) and report.json");
+      program.add("run", "Melt a scene: frames (PNG), contact sheet, film (MP4 or WebP) and report.json");
   add_scene(command, options->common);
   const Option scene = command.find("scene").required(false).described_as(
       "scene file (TOML), a name of `voxmelt list scenes`, or a model; --resume goes on from a checkpoint");
@@ -247,6 +250,11 @@ void add_run(CommandLine& program) {
   begins(add_setting(command, options->setting, "of a frame, "));
   command.option("--fps", options->fps, "frames of the film in a second (default: 12)")
       .within(1, kMostFramesPerSecond);
+  command
+      .option(
+          "--film", options->film,
+          "mp4 by ffmpeg, webp or webp-lossless; auto is mp4, and webp where ffmpeg fails (default: auto)")
+      .one_of({render::kFilmNames.begin(), render::kFilmNames.end()});
   command.option("--checkpoint-every", options->checkpoint_every,
                  "write a checkpoint after every N steps, or every N seconds (60s)");
   begins(command.option(

@@ -12,6 +12,8 @@
 
 #include "kernel/run/checkpoint/blocks.h"
 #include "kernel/run/io/export.h"
+#include "render/frames/film_writer.h"
+#include "render/frames/webp_bytes.h"
 #include "render/packet/draw_picture.h"
 
 namespace voxmelt::app {
@@ -77,6 +79,12 @@ bool is_kept(const RunRecord& record, std::string_view name) {
   return std::ranges::find(record.left_out, name) == record.left_out.end();
 }
 
+std::string film_named(const std::string& name) {
+  if (render::wants_webp(render::film_kind_named(name).value()) && !render::webp_is_built_in())
+    throw UsageError("--film " + name + ": error: this build has no libwebp: " + render::kWebpCommand);
+  return name;
+}
+
 bool frame_is_due(const RunRecord& record, std::uint32_t step) {
   return step == 0 || (record.frame_every > 0 && (step % record.frame_every == 0 || step == record.steps));
 }
@@ -116,6 +124,7 @@ std::string json_of(const RunRecord& record) {
     result["write"] = record.write;
     result["write_every"] = record.write_every;
   }
+  if (record.film != "auto") result["film"] = record.film;
   if (!record.left_out.empty()) result["left_out"] = record.left_out;
   if (common.seed) result["seed"] = *common.seed;
   if (!record.journal.empty()) {
@@ -143,6 +152,9 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     if (object.contains("fps")) record.frames_per_second = whole<int>(object.at("fps"), "fps", file);
     if (record.frames_per_second < 1 || record.frames_per_second > kMostFramesPerSecond)
       checkpoint::fail(file, "its head: command.fps is out of its range");
+    if (object.contains("film")) record.film = object.at("film").get<std::string>();
+    if (!render::film_kind_named(record.film))
+      checkpoint::fail(file, "its head: command.film is none of this program's");
     record.shown_place = object.at("out").get<std::string>();
     common.implementation = object.at("implementation").get<std::string>();
     common.visibility = object.at("visibility").get<std::string>();

@@ -33,6 +33,7 @@ struct RunRecord {
   std::string journal;                // text of --journal; empty for none
   std::string journal_name;           // as --journal
   int frames_per_second = 12;         // of the film
+  std::string film = "auto";          // as --film
   std::string id;                     // random name of this run
   std::string shown_place;            // place of the output, as the user named it
   std::vector<checkpoint::FileState> frames;
@@ -48,6 +49,9 @@ RunRecord run_record_of(const std::string& json, const std::filesystem::path& fi
 // Returns what is not in the list of --keep. Throws UsageError.
 std::vector<std::string> left_out_of(const std::optional<std::string>& keep);
 bool is_kept(const RunRecord& record, std::string_view name);
+
+// Returns what is in --film. Throws UsageError where this build cannot make such a film.
+std::string film_named(const std::string& name);
 
 // Tells if a frame is due: at the first step, every `frame_every` steps, and at the last one.
 bool frame_is_due(const RunRecord& record, std::uint32_t step);

@@ -96,6 +96,7 @@ class Run {
             .threads = thread_count(common()),
             .frames_per_second = record().frames_per_second,
             .film = is_kept(record(), "film"),
+            .kind = render::film_kind_named(record().film).value_or(render::FilmKind::automatic),
             .stop = interrupted};
   }
   RunSeconds seconds_now() const {
@@ -137,7 +138,7 @@ class Run {
     }
     if (simulation_.steps_done() < steps()) resumable_ = checkpoint() || io::holds_work(out().partial());
     written_.settle();
-    video_note_ = film_->finish();
+    film_made_ = film_->finish();
   }
 
   void warn_of_what_was_seen(bool complete) {
@@ -164,7 +165,7 @@ class Run {
 
   void remove_what_is_not_kept() const {
     for (const auto& [name, place] : {std::pair("frames", "frames"), std::pair("sheet", "contact_sheet.png"),
-                                      std::pair("film", "film.mp4")})
+                                      std::pair("film", "film.mp4"), std::pair("film", "film.webp")})
       if (!is_kept(record(), name)) std::filesystem::remove_all(out().partial() / place);
   }
 
@@ -189,11 +190,16 @@ class Run {
     return ending.code;
   }
 
+  std::string film_text() const {
+    if (film_made_.file.empty()) return film_made_.note;
+    const std::string file = place_ + "/" + film_made_.file.filename().string();
+    return film_made_.note.empty() ? file : file + "; " + film_made_.note;
+  }
+
   void print_outputs() const {
     if (is_kept(record(), "frames")) print("{} frames      {}/frames/\n", film_->frame_count(), place_);
     if (is_kept(record(), "sheet")) print("contact sheet  {}/contact_sheet.png\n", place_);
-    if (is_kept(record(), "film"))
-      print("film           {}\n", video_note_.empty() ? place_ + "/film.mp4" : video_note_);
+    if (is_kept(record(), "film")) print("film           {}\n", film_text());
     print("report         {}/report.json\n", place_);
     written_.print_place(place_);
     if (!run_.scene.assumed.empty())
@@ -228,8 +234,8 @@ class Run {
   Checkpoints checkpoints_;
   WrittenStates written_;
   Watch watch_;
-  std::string place_;       // place of the output, for messages
-  std::string video_note_;  // why there is no film
+  std::string place_;  // place of the output, for messages
+  render::FilmMade film_made_;
   bool resumable_ = true;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "kernel/engine/cpu/instruction_set.h"
+#include "render/frames/webp_bytes.h"
 #include "render/image/video.h"
 
 namespace voxmelt::app {
@@ -31,8 +32,10 @@ std::string instruction_sets() {
 std::string version_number() { return VOXMELT_VERSION; }
 
 std::string version_text() {
-  return fmt::format("voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}", version_number(), compiler(),
-                     instruction_sets(), render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)");
+  return fmt::format("voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}", version_number(),
+                     compiler(), instruction_sets(),
+                     render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)",
+                     render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)");
 }
 
 }  // namespace voxmelt::app

@@ -20,6 +20,15 @@ find_library(ZSTD_LIBRARY zstd REQUIRED)
 find_path(XXHASH_INCLUDE xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 
+# libwebp makes films where there is no ffmpeg. Who uses it links `webp`.
+find_path(WEBP_INCLUDE webp/encode.h)
+find_library(WEBP_LIBRARY webp)
+if(WEBP_INCLUDE AND WEBP_LIBRARY)
+  set(WEBP_FOUND ON)
+elseif(PROJECT_IS_TOP_LEVEL)
+  message(STATUS "no libwebp: films want ffmpeg (apt-get install libwebp-dev)")
+endif()
+
 # The library needs nothing of what follows.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <exception>
-#include <optional>
+#include <filesystem>
 #include <stop_token>
 #include <utility>
 
 #include "app/view/encode.h"
 #include "app/view/scratch.h"
 #include "library/journal/world.h"
+#include "render/frames/film_writer.h"
+#include "render/frames/webp_bytes.h"
 #include "render/image/image.h"
 #include "render/image/video.h"
 #include "voxmelt/errors.h"
@@ -36,8 +38,8 @@ Film::Progress made(const Film::Plan& plan, const Film::Tell& tell, const std::s
   Film::Progress progress;
   progress.planned = (steps + plan.every - 1) / plan.every + 1;
   const Scratch scratch;
-  render::VideoWriter video(scratch.file(), kFramesPerSecond,
-                            {.stop = [stop] { return stop.stop_requested(); }});
+  render::FilmWriter video(scratch.file(), {.frames_per_second = kFramesPerSecond,
+                                            .patience = {.stop = [stop] { return stop.stop_requested(); }}});
   Simulation simulation = plan.open();
   journal::Reader changes(plan.changes);
   changes.seek(simulation.steps_done());
@@ -49,15 +51,21 @@ Film::Progress made(const Film::Plan& plan, const Film::Tell& tell, const std::s
     tell(progress);
   }
   video.close();
-  if (std::optional<std::string> problem = video.finish()) progress.problem = std::move(*problem);
-  if (progress.problem.empty()) progress.film = scratch.bytes();
+  render::FilmMade film = video.finish();
+  if (film.file.empty()) {
+    progress.problem = std::move(film.note);
+  } else {
+    std::filesystem::rename(film.file, scratch.file());
+    progress.ending = film.file.extension();
+    progress.film = scratch.bytes();
+  }
   return progress;
 }
 
 }  // namespace
 
 Film::Film(Plan plan, Tell tell) {
-  if (!render::ffmpeg_found())
+  if (!render::ffmpeg_found() && !render::webp_is_built_in())
     throw InputError(
         "error: there is no `ffmpeg`, which makes films: Debian's package `ffmpeg` has it; `voxmelt run` "
         "draws the frames of what `Save scene` gives");

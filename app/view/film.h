@@ -19,7 +19,8 @@ class Film {
   struct Progress {
     std::uint32_t frames = 0, planned = 0;
     bool over = false;
-    std::string film{};   // bytes of an MP4 file, once it is over
+    std::string film{};   // bytes of the film, once it is over
+    std::string ending;   // of its file's name: .mp4 or .webp
     std::string problem;  // why there is none; both are empty if it was stopped
   };
   using Tell = std::function<void(Progress)>;

@@ -265,7 +265,7 @@ void Session::film(Client client, bool begin) {
       order.message = std::make_shared<const Message>(
           Message{text.dump(-1, ' ', true, json::error_handler_t::replace), Message::Kind::text});
     } else {
-      order.message = file_message(std::filesystem::path(scene_).stem().string() + ".mp4", now.film);
+      order.message = file_message(std::filesystem::path(scene_).stem().string() + now.ending, now.film);
     }
     put(std::move(order));
   };

@@ -30,7 +30,10 @@ Frames::Frames(std::filesystem::path folder, const Plan& plan)
     : folder_(std::move(folder)),
       has_film_(plan.film),
       sheet_(plan.count),
-      video_(folder_ / "film.mp4", plan.frames_per_second, {.stop = plan.stop}),
+      video_(folder_ / "film", {.kind = plan.kind,
+                                .frames_per_second = plan.frames_per_second,
+                                .patience = {.stop = plan.stop},
+                                .read = [this](std::size_t frame) { return read_png(file_of(frame)); }}),
       film_(
           plan.threads > 1 ? 1 : 0, ahead(plan),
           [this](Frame& frame) { video_.add(frame.image ? *frame.image : read_png(file_of(frame.number))); }),
@@ -69,7 +72,7 @@ void Frames::write_file(const Frame& frame) {
   encode_seconds_ += seconds;
 }
 
-std::string Frames::finish() {
+FilmMade Frames::finish() {
   files_.wait();
   film_.wait();
   video_.close();  // ffmpeg can now end beside the sheet
@@ -79,10 +82,7 @@ std::string Frames::finish() {
               sheet_.sheet(labels_, [this](std::size_t frame) { return read_png(file_of(frame)); }));
   encode_seconds_ += seconds_since(begin);
 
-  if (!has_film_) return "";
-  // The message need not name the folder.
-  const std::string problem = video_.finish().value_or("");
-  return problem.substr(std::min(problem.size(), problem.find("no film")));
+  return has_film_ ? video_.finish() : FilmMade{};
 }
 
 }  // namespace voxmelt::render

@@ -9,26 +9,27 @@
 #include <string>
 #include <vector>
 
+#include "render/frames/film_writer.h"
 #include "render/frames/sheet_frames.h"
 #include "render/frames/work_line.h"
 #include "render/image/image.h"
-#include "render/image/video.h"
 
 namespace voxmelt::render {
 
 class Frames {
  public:
   struct Plan {
-    std::size_t count = 0;         // frames that are planned; fewer are no error
-    std::size_t frame_bytes = 0;   // bytes of a picture in memory; few large ones may wait
-    int threads = 1;               // with one, all work is done in turn; with more, beside the caller
-    int frames_per_second = 12;    // of the film
-    bool film = true;              // without, none is made
-    std::function<bool()> stop{};  // says that the film should not be waited for; may be empty
+    std::size_t count = 0;                // frames that are planned; fewer are no error
+    std::size_t frame_bytes = 0;          // bytes of a picture in memory; few large ones may wait
+    int threads = 1;                      // with one, all work is done in turn; with more, beside the caller
+    int frames_per_second = 12;           // of the film
+    bool film = true;                     // without, none is made
+    FilmKind kind = FilmKind::automatic;  // of the film
+    std::function<bool()> stop{};         // says that the film should not be waited for; may be empty
   };
 
-  // Writes folder/frames/frame_00000.png and so on, folder/contact_sheet.png and folder/film.mp4. No byte
-  // depends on the number of threads.
+  // Writes folder/frames/frame_00000.png and so on, folder/contact_sheet.png, and
+  // folder/film.mp4 or folder/film.webp. No byte depends on the number of threads.
   Frames(std::filesystem::path folder, const Plan& plan);
 
   // Adds a frame. All frames have one size. The call waits if encoder or film are far behind. It throws what
@@ -44,8 +45,8 @@ class Frames {
   // Throws what stopped a frame.
   void check() { files_.check(); }
 
-  // Waits for all frames, and makes the sheet and the film. Returns why there is no film, or nothing.
-  std::string finish();
+  // Waits for all frames, and makes the sheet and the film.
+  FilmMade finish();
 
   static std::string file_name(std::size_t frame);  // frame_00000.png
   std::size_t count() const { return labels_.size(); }
@@ -65,7 +66,7 @@ class Frames {
   bool has_film_;
   std::vector<std::string> labels_;
   SheetFrames sheet_;
-  VideoWriter video_;
+  FilmWriter video_;
   std::mutex mutex_;
   double encode_seconds_ = 0;
   // These come last, because their threads use all of the above.

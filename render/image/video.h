@@ -24,6 +24,9 @@ class VideoWriter {
   // Adds a frame. All frames have one size. Odd ones lose a row or column, because yuv420p wants even sides.
   void add(const Image& frame);
 
+  // Tells that ffmpeg takes no more frames, though close() was not called.
+  bool gave_up() const { return begun_ && to_ffmpeg_ < 0; }
+
   // Tells ffmpeg that no more frames come. It may need a while to end.
   void close();
 

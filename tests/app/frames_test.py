@@ -115,7 +115,7 @@ class Frames(unittest.TestCase):
                                  ("cat > /dev/null; exit 3", "no film: ffmpeg failed with exit status 3"),
                                  ('head -c 100 > "$film"; kill -9 $$', "no film: ffmpeg failed with exit status 128")):
                 with self.subTest(note, threads=threads):
-                    said = self.run_scene("out", "--size", "300x300", "--threads", threads, script=script).stdout
+                    said = self.run_scene("out", "--size", "300x300", "--threads", threads, "--film", "mp4", script=script).stdout
                     self.assertIn(f"film           {note}\n", said)
                     self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
                                      [".voxmelt-output", "contact_sheet.png", "frames", "last.vxc", "report.json"])

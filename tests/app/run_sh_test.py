@@ -59,12 +59,12 @@ class RunSh(unittest.TestCase):
                 self.assertEqual((result.stdout, result.stderr), (expected + "\n", ""))
                 self.assertEqual(result.returncode, 7, "the program's own exit code")
 
-    def test_a_film_that_cannot_be_is_said(self):
+    def test_a_film_that_is_not_mp4_is_said(self):
         (self.folder / "bin/ffmpeg").unlink()
         for tool in ("bash", "dirname", "mkdir"):
             (self.folder / "bin" / tool).symlink_to(shutil.which(tool))
         result = subprocess.run([self.folder / "run.sh"], env=dict(os.environ, PATH=f"{self.folder}/bin"), capture_output=True, text=True)
-        self.assertEqual((result.stdout, result.stderr), ("run cello\n", "Without ffmpeg there are pictures and no film: apt-get install ffmpeg\n"))
+        self.assertEqual((result.stdout, result.stderr), ("run cello\n", "Without ffmpeg the film is WebP, not MP4: apt-get install ffmpeg\n"))
 
     def test_what_fails_before_ends_it(self):
         script(self.folder / "bin/cmake", "echo no compiler; exit 1")

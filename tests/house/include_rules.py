@@ -101,7 +101,7 @@ ALLOWED = {
     "python": ["include/voxmelt"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
-    "app/view": ["app", "library/journal", "include/voxmelt", "render/image"],
+    "app/view": ["app", "library/journal", "include/voxmelt", "render/frames", "render/image"],
     "library/journal": ["include/voxmelt", "kernel/scene/scene.h"],
     "app/runs": ["app", "report/runs", "kernel/scene", "kernel/scene/text", "kernel/run/io", "kernel/run/checkpoint", "kernel/run/opening"],
     "app": ["library/journal", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
@@ -125,6 +125,7 @@ THIRD_PARTY = {
     "boost/": ["app/view/server.cpp"],
     "pybind11/": ["python"],
     "jpeglib.h": ["app/view/encode.cpp"],
+    "webp/": ["render/frames/webp_bytes.cpp"],
     "benchmark/": ["bench"],
     "nlohmann/": ["kernel/scene/mesh_file", "kernel/run/checkpoint", "kernel/run/io", "hwmodel/memory", "hwmodel/pipeline/report", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "report/accuracy",
                   "report/bench", "report/hardware", "app", "app/runs", "app/view"],

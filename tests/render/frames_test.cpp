@@ -60,7 +60,7 @@ class FrameFiles : public testing::Test {
     {
       Frames frames(fresh(), {planned, kBytes, threads});
       for (std::size_t i = 0; i < count; ++i) frames.add(frame(i), "step " + std::to_string(i));
-      EXPECT_EQ(frames.finish(), "");
+      EXPECT_EQ(frames.finish().note, "");
       EXPECT_EQ(frames.count(), count);
     }
     std::map<std::string, std::string> files;
@@ -169,7 +169,7 @@ TEST_F(FrameFiles, ASlowFilmHoldsTheFramesUp) {
   EXPECT_LE(added, 20U);  // 32 KB a frame: a socket holds some
   fs::create_directory(go);
   adder.join();
-  EXPECT_EQ(frames.finish(), "");
+  EXPECT_EQ(frames.finish().note, "");
   EXPECT_EQ(fs::file_size(folder_ / "film.mp4"), 200 * kBytes);
 }
 
@@ -188,7 +188,7 @@ TEST_F(FrameFiles, LargePicturesDoNotPileUp) {
   EXPECT_LE(added, 3U);
   fs::create_directory(go);
   adder.join();
-  EXPECT_EQ(frames.finish(), "");
+  EXPECT_EQ(frames.finish().note, "");
 }
 
 }  // namespace

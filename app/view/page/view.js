@@ -66,7 +66,7 @@ async function show(bytes) {
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
   if (head.type === "file") {
     const file = new Blob([new Uint8Array(bytes, 4 + length)]);
-    if (head.name.endsWith(".mp4")) film.done(head.name, file);
+    if (/\.(mp4|webp)$/.test(head.name)) film.done(head.name, file);
     return download(head.name, file);
   }
   if (head.type === "textures") return own.take(head, new Uint8Array(bytes, 4 + length));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bugs in readers of meshes and volumes, and in writers of states: does the test that each names find it?
+"""Bugs in readers of meshes and volumes, and in writers of states and films: does the test that each names find it?
 
     tests/kernel/format_mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
     tests/kernel/format_mutants/run.py           builds and runs each; --only says which
@@ -43,7 +43,7 @@ def main():
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith(("kernel/scene/", "kernel/run/io/")))
+    build = Build(options.build, lambda source, *_: source.startswith(("kernel/scene/", "kernel/run/io/", "render/frames/")))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)
