@@ -99,6 +99,11 @@ class Films(unittest.TestCase):
     def frames(self, out):
         return [bytes(picture(f)[3]) for f in sorted((self.folder / out / "frames").iterdir())]
 
+    def same(self, one, other):
+        """Which frames differ: to show how takes minutes."""
+        self.assertEqual(len(one), len(other))
+        self.assertEqual([i for i, (a, b) in enumerate(zip(one, other)) if a != b], [])
+
     def seen(self, out):
         """Size, loops, durations and frames, as Pillow sees them."""
         if PYTHON is None:
@@ -115,7 +120,7 @@ class Films(unittest.TestCase):
         self.assertIn("film           o/film.webp\n", said)
         size, loop, durations, frames = self.seen("o")
         self.assertEqual((size, loop, len(frames)), ((65, 47), 0, 21))
-        self.assertEqual(frames, self.frames("o"))
+        self.same(frames, self.frames("o"))
         self.assertGreater(len(set(frames)), 10, "nothing moves: the test would prove nothing")
 
     # The bound is for pictures: a mean of 2 levels of 255, over all pixels and colours.
@@ -148,7 +153,7 @@ class Films(unittest.TestCase):
     def test_a_frame_without_change_is_a_pixel(self):
         self.run_scene("o", "--steps", 3, "--frame-every", 1, "--film", "webp-lossless", "--set", "heat_source.0.power=0")
         self.assertEqual([part[0] for part in parts_of(self.folder / "o/film.webp")[1]], [(0, 0, 64, 48)] + 3 * [(0, 0, 1, 1)])
-        self.assertEqual(self.seen("o")[3], self.frames("o"))
+        self.same(self.seen("o")[3], self.frames("o"))
 
     def test_times_do_not_add_up_to_an_error(self):
         for fps in (7, 12, 240):
@@ -167,7 +172,7 @@ class Films(unittest.TestCase):
                 with self.subTest(why, threads=threads):
                     said = self.run_scene("o", "--steps", 8, "--frame-every", 1, "--threads", threads, script=script)
                     self.assertIn(f"film           o/film.webp; no film.mp4: {why}\n", said)
-                    self.assertEqual((self.folder / "o/film.webp").read_bytes(), wanted)
+                    self.assertTrue((self.folder / "o/film.webp").read_bytes() == wanted)
                     self.assertEqual([p.name for p in (self.folder / "o").glob("film*")], ["film.webp"])
 
     def test_a_film_that_was_asked_for_is_no_other(self):
@@ -201,7 +206,7 @@ class Films(unittest.TestCase):
         self.assertEqual(len(parts_of(self.folder / "o/film.webp")[1]), len(self.frames("o")))
         again = voxmelt("run", "--resume", "o", "--quiet", cwd=self.folder, env=self.env())
         self.assertEqual(again.returncode, 0, again.stderr)
-        self.assertEqual((self.folder / "o/film.webp").read_bytes(), (self.folder / "whole/film.webp").read_bytes())
+        self.assertTrue((self.folder / "o/film.webp").read_bytes() == (self.folder / "whole/film.webp").read_bytes())
         said = voxmelt("run", "--resume", "o", "--steps", "+100", "--film", "webp", cwd=self.folder, env=self.env())
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertEqual({part[2] for part in parts_of(self.folder / "o/film.webp")[1]}, {"VP8 "})
