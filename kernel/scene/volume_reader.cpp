@@ -22,7 +22,8 @@
 namespace voxmelt::scene {
 namespace {
 
-constexpr double kLargestNumber = 1e15;
+constexpr double kLargestNumber = 1e15, kMostVoxels = 4096;
+constexpr std::int64_t kMostSkipped = std::int64_t{1} << 30;
 constexpr int kSamples = kSamplesPerAxis;
 
 // Turns what points along z in the file up, and what faced -y to the front.
@@ -120,6 +121,25 @@ std::function<bool(double)> read_filled(Reader& reader) {
   return [low = low, high = high](double value) { return low <= value && value <= high; };
 }
 
+// Reads what a header would say, of a file that has none.
+std::optional<RawNumbers> read_raw_header(Reader& reader) {
+  std::optional<Reader> header = reader.table("raw");
+  if (!header) return std::nullopt;
+  RawNumbers raw;
+  const std::array<double, 3> size = header->vector<3>("size", within(kMostVoxels));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (size[axis] < 1 || size[axis] != std::floor(size[axis]))
+      header->fail("size", fmt::format(": {} is no number of voxels", size[axis]));
+    raw.size[axis] = static_cast<std::uint64_t>(size[axis]);
+  }
+  raw.type = header->choice("type", {kNumberTypes.begin(), kNumberTypes.end()});
+  raw.is_big_endian = header->choice("endian", {"little", "big"}, 0) == 1;
+  raw.skip = header->integer("skip", 0, kMostSkipped, 0);
+  raw.spacing = header->vector<3>("spacing", above(0).at_most(kLargestScale), std::array{1.0, 1.0, 1.0});
+  header->finish();
+  return raw;
+}
+
 }  // namespace
 
 void read_volume_entry(Reader& reader, state::Grid grid, Entry& entry) {
@@ -128,6 +148,7 @@ void read_volume_entry(Reader& reader, state::Grid grid, Entry& entry) {
   source.place = reader.place("file");
   if (reader.has("array")) source.array = reader.text("array");
   source.is_filled = read_filled(reader);
+  source.raw = read_raw_header(reader);
   const bool z_is_up = reader.choice("up", {"y", "z"}, 0) == 1;
   Voxels voxels = read_voxels(source);
   if (z_is_up) turn_up(voxels);

@@ -77,6 +77,36 @@ def vox(size=(NX, NZ, NY), voxels=None, more=b""):
     return b"VOX " + struct.pack("<I", 150) + chunk(b"MAIN", b"", body)
 
 
+def words(**pairs):
+    text = struct.pack("<I", len(pairs))
+    for pair in pairs.items():
+        for word in pair:
+            text += struct.pack("<I", len(word)) + word.encode()
+    return text
+
+
+def turn_node(node, child, hidden=False, layer=0, **frame):
+    """A node that moves (_t) and turns (_r) what is below."""
+    attributes = words(_hidden="1") if hidden else words(_name="some")
+    return chunk(b"nTRN", struct.pack("<i", node) + attributes + struct.pack("<iiii", child, -1, layer, 1) + words(**frame))
+
+
+def group_node(node, children):
+    return chunk(b"nGRP", struct.pack("<i", node) + words() + struct.pack(f"<{1 + len(children)}i", len(children), *children))
+
+
+def shape_node(node, model):
+    return chunk(b"nSHP", struct.pack("<i", node) + words() + struct.pack("<ii", 1, model) + words())
+
+
+def model(size, voxels):
+    return chunk(b"SIZE", struct.pack("<3I", *size)) + chunk(b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes(v) for v in voxels))
+
+
+def magica(*parts):
+    return b"VOX " + struct.pack("<I", 200) + chunk(b"MAIN", b"", b"".join(parts))
+
+
 WITH_NUMPY = """
 import numpy, sys
 a = numpy.frombuffer(bytes.fromhex(sys.argv[1]), numpy.uint8).reshape(%d, %d, %d)
@@ -118,7 +148,12 @@ BAD = {
     "half.nrrd": (nrrd(sizes="12 10 1.5"), "sizes: 1.5 is no number of voxels"),
     "letters.nrrd": (nrrd(sizes="12 10 O"), "sizes: 'O' is no number"),
     "endian.nrrd": (nrrd(type="short"), "its header has no field `endian`"),
-    "encoding.nrrd": (nrrd(encoding="bzip2"), "encoding 'bzip2' is not read"),
+    "encoding.nrrd": (nrrd(encoding="bzip2"), "encoding 'bzip2' is not read; raw, gzip and ascii are: `unu save -f nrrd -e gzip`"),
+    "hex.nrrd": (nrrd(encoding="hex"), "encoding 'hex' is not read; raw, gzip and ascii are\n"),
+    "few.nrrd": (nrrd(b"1 " * 1679, encoding="ascii"), "it has 1679 of 1680 numbers: is it truncated?"),
+    "many.nrrd": (nrrd(b"1 " * 1681, encoding="ascii"), "it has more than 1680 numbers"),
+    "word.nrrd": (nrrd(b"1 " * 9 + b"one " * 1671, encoding="ascii"), "number 9 is 'one'"),
+    "short.nrrd": (nrrd(b"1 " * 99, encoding="ascii", sizes="4096 4096 60"), "1006632960 numbers are not 198 bytes of text"),
     "cut.nrrd": (nrrd()[:-1], "is it truncated?"),
     "gzip.nrrd": (nrrd(encoding="gzip"), "or damaged"),
     "bomb.nrrd": (nrrd(gzip.compress(bytes(100)), encoding="gzip", sizes="1000 1000 1000"), "are not 1000000000 bytes"),
@@ -140,10 +175,26 @@ BAD = {
     "size.vox": (vox(size=(300, 1, 1)), "a side of 300 voxels; 1 to 256 are read"),
     "outside.vox": (vox(voxels=[(12, 0, 0, 1)]), "voxel 0 is at 12, 0, 0, outside of the model"),
     "count.vox": (vox().replace(struct.pack("<I", sum(CELLS)), struct.pack("<I", 1 << 31)), "2147483648 voxels are not"),
-    "two.vox": (vox(more=chunk(b"SIZE", struct.pack("<3I", 1, 1, 1))), "it has several models; save one"),
+    "two.vox": (vox(more=chunk(b"SIZE", struct.pack("<3I", 1, 1, 1))), "it has 2 models, and no scene that places them"),
+    "root.vox": (vox(more=shape_node(1, 0)), "its scene has no node 0"),
+    "child.vox": (vox(more=turn_node(0, 1)), "its scene has no node 1"),
+    "twice.vox": (vox(more=turn_node(0, 1) + turn_node(0, 1)), "node 0 of its scene is there twice"),
+    "loop.vox": (vox(more=turn_node(0, 1) + group_node(1, [2]) + turn_node(2, 1)), "node 1 of its scene has two parents"),
+    "self.vox": (vox(more=turn_node(0, 0)), "node 0 of its scene has two parents"),
+    "model.vox": (vox(more=turn_node(0, 1) + shape_node(1, 1)), "its scene names model 1 of 1"),
+    "minus.vox": (vox(more=turn_node(0, 1) + shape_node(1, -1)), "its scene names model -1 of 1"),
+    "rotation.vox": (vox(more=turn_node(0, 1, _r="5") + shape_node(1, 0)), "_r = '5' is no rotation"),
+    "rotated.vox": (vox(more=turn_node(0, 1, _r="x") + shape_node(1, 0)), "_r: 'x' is no number"),
+    "move.vox": (vox(more=turn_node(0, 1, _t="1 2") + shape_node(1, 0)), "_t: 2 numbers, not 3"),
+    "far.vox": (vox(more=turn_node(0, 1, _t="1 2 1e9") + shape_node(1, 0)), "_t = '1 2 1e9' is no move"),
+    "wide.vox": (vox(more=turn_node(0, 1) + group_node(1, [2, 3]) + turn_node(2, 4, _t="-3000 0 0") + turn_node(3, 5, _t="3000 0 0")
+                     + shape_node(4, 0) + shape_node(5, 0)), "its models span 6012 voxels; at most 4096 are read"),
+    "hidden.vox": (vox(more=turn_node(0, 1, hidden=True) + shape_node(1, 0)), "its scene shows no model: all is hidden"),
+    "node.vox": (vox(more=chunk(b"nGRP", struct.pack("<2i", 0, 0))), "a node of its scene is truncated"),
+    "nodes.vox": (vox(more=chunk(b"nGRP", struct.pack("<3i", 0, 0, 1 << 30))), "a node of its scene has 1073741824 parts in 0 bytes"),
     "none.vox": (b"VOX \x96\0\0\0" + chunk(b"MAIN", b""), "it has no model"),
     "air.vox": (vox(voxels=[]), "no number is within `filled`"),
-    "a.tiff": (b"II*\0", "volumes are read from .npy, .npz, .nrrd, .nhdr, .mha, .mhd, .vox, not from '.tiff'"),
+    "a.tiff": (b"II*\0", "volumes are read from .npy, .npz, .nrrd, .nhdr, .mha, .mhd, .vox, not from '.tiff'; numbers without a header want `raw`"),
 }
 
 
@@ -212,6 +263,86 @@ class Volumes(unittest.TestCase):
         (self.folder / "c.nrrd").write_bytes(nrrd(b"\1", sizes="1 1 1", **{"space directions": "(0,2,0) (3,0,0) (0,0,5)"}))
         self.assertEqual(self.digest(volume("c.nrrd", "at = [1, 1, 1]\n")), boxes(((1, 1, 1), (3, 4, 6))))
 
+    def test_numbers_as_text(self):
+        text = " ".join(str(3 * c) for c in CELLS).encode()
+        self.same("a.nrrd", nrrd(text, encoding="ascii"))
+        self.same("b.nrrd", nrrd(text.replace(b" ", b"\n"), encoding="text", type="float"), "filled = [3, 3]\n")
+        self.same("c.nrrd", nrrd(text.replace(b" ", b", ").replace(b"3", b"3.0e+0") + b"\n\n", encoding="txt", type="double"), "filled = [3, 3]\n")
+        (self.folder / "numbers.txt").write_bytes(text)
+        self.same("d.nhdr", nrrd(b"", encoding="ascii", **{"data file": "numbers.txt"}))
+
+    # What the header of a file would say stands in the scene.
+    def test_numbers_without_a_header(self):
+        size = f"size = [{NX}, {NY}, {NZ}]"
+        self.same("a.raw", CELLS, f'raw = {{ {size}, type = "uint8" }}\n')
+        self.same("b.dat", b"head!" + b"".join(struct.pack(">h", -7 * c) for c in CELLS),
+                  f'filled = [-7, -7]\nraw = {{ {size}, type = "int16", endian = "big", skip = 5 }}\n')
+        self.same("c", b"".join(struct.pack("<d", c) for c in CELLS), f'raw = {{ {size}, type = "float64", endian = "little" }}\n')
+        (self.folder / "d.raw").write_bytes(b"\1")
+        self.assertEqual(self.digest(volume("d.raw", 'at = [1, 1, 1]\nraw = { size = [1, 1, 1], type = "int8", spacing = [2, 3, 5] }\n')),
+                         self.digest(of_shapes([((1, 1, 1), (3, 4, 6))])))
+        for more, expected in (("", "a.raw: volumes are read from .npy"),
+                               (f'raw = {{ {size}, type = "uint16" }}\n', "12 x 10 x 14 numbers are 3360 bytes, and it has 1680: is it truncated?"),
+                               (f'raw = {{ {size}, type = "uint8", skip = 1 }}\n', "are 1680 bytes, and it has 1679"),
+                               (f'raw = {{ {size}, type = "uint8", skip = 9999 }}\n', "it has 1680 bytes, and 9999 are to be skipped"),
+                               (f'raw = {{ {size}, type = "u8" }}\n', "float64"), (f"raw = {{ {size} }}\n", "type"),
+                               (f'raw = {{ {size}, type = "uint8", endian = "middle" }}\n', "little"),
+                               (f'raw = {{ {size}, type = "uint8", skip = -1 }}\n', "skip"),
+                               ('raw = { size = [12, 10, 1.5], type = "uint8" }\n', "size: 1.5 is no number of voxels"),
+                               ('raw = { size = [12, 10, 5000], type = "uint8" }\n', "size"),
+                               (f'raw = {{ {size}, type = "uint8", spacing = [1, 0, 1] }}\n', "spacing"),
+                               (f'raw = {{ {size}, type = "uint8", order = "C" }}\n', "order")):
+            result = voxmelt("digest", write(self.folder, volume("a.raw", more)), "--steps", 0)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+            self.assertIn(expected, result.stderr)
+
+    def boxes(self, file, *cells, size=1):
+        """The file holds these cells and no others. Their lowest corner is moved to (1, 1, 1)."""
+        low = [min(cell[axis] for cell in cells) for axis in range(3)]
+        moved = [tuple(1 + c - l for c, l in zip(cell, low)) for cell in cells]
+        self.assertEqual(self.digest(volume(file, "at = [1, 1, 1]\n")), self.digest(of_shapes([(cell, tuple(c + size for c in cell)) for cell in moved])))
+
+    # By hand, in the file's axes: a model of 3 x 2 x 1 has its middle at (1, 1, 0). An L of three voxels (0, 0), (2, 0), (0, 1).
+    # A quarter turn about z takes (x, y) to (-y, x); the scene's x, y, z are x, z, -y here.
+    def test_scenes_of_several_models(self):
+        shape = model((3, 2, 1), [(0, 0, 0, 1), (2, 0, 0, 1), (0, 1, 0, 1)])
+        one = model((1, 1, 1), [(0, 0, 0, 2)])
+        (self.folder / "turned.vox").write_bytes(magica(shape, turn_node(0, 1, _r=str(1 | 0 << 2 | 1 << 4)) + shape_node(1, 0)))
+        # voxels' middles (-0.5, -0.5), (1.5, -0.5), (-0.5, 0.5) become (0.5, -0.5), (0.5, 1.5), (-0.5, -0.5)
+        self.boxes("turned.vox", (0, 0, 1), (0, 0, -1), (-1, 0, 1))
+        # With moves: the first one turned and moved by (4, 0, 2), the second one in a group that is moved by (0, 1, 0) and mirrored along x.
+        scene = (turn_node(0, 1) + group_node(1, [2, 3]) + turn_node(2, 4, _r=str(1 | 0 << 2 | 1 << 4), _t="4 0 2") + turn_node(3, 5, _r=str(0 | 1 << 2 | 1 << 4), _t="0 1 0")
+                 + shape_node(4, 0) + group_node(5, [6]) + turn_node(6, 7, _t="3 2 0") + shape_node(7, 1))
+        (self.folder / "both.vox").write_bytes(magica(shape, one, scene))
+        # the second one: middle (0.5, 0.5, 0.5) + (3, 2, 0), mirrored (-3.5, 2.5), moved by (0, 1): the cell (-4, 3, 0)
+        self.boxes("both.vox", (4, 2, 1), (4, 2, -1), (3, 2, 1), (-4, 0, -3))
+        # Chunks in another order, a copy of the same model, and a hidden layer.
+        copies = (shape_node(4, 1) + shape_node(5, 1) + shape_node(6, 0) + turn_node(2, 4, _t="0 0 0") + turn_node(3, 5, _t="5 0 1") + turn_node(7, 6, layer=3)
+                  + group_node(1, [2, 3, 7]) + turn_node(0, 1) + chunk(b"LAYR", struct.pack("<i", 3) + words(_hidden="1") + struct.pack("<i", -1)))
+        (self.folder / "copies.vox").write_bytes(magica(shape, one, copies))
+        self.boxes("copies.vox", (0, 0, 0), (5, 1, 0))
+        # What comes later is seen where both are; its index counts.
+        over = turn_node(0, 1) + group_node(1, [2, 3]) + turn_node(2, 4, _t="1 1 0") + turn_node(3, 5, _t="0 0 0") + shape_node(4, 0) + shape_node(5, 1)
+        (self.folder / "over.vox").write_bytes(magica(shape, one, over))
+        self.assertEqual(self.digest(volume("over.vox", "at = [1, 1, 1]\nfilled = [2, 2]\n")), self.digest(of_shapes([((1, 1, 2), (2, 2, 3))])))
+
+    # All 48 turns and mirrors of a body of 5 x 4 x 3, against a second, plain way: middles as fractions, by a matrix.
+    def test_all_turns(self):
+        import itertools
+        import math
+        body = [(0, 0, 0), (4, 0, 0), (0, 3, 0), (0, 0, 2), (4, 3, 0), (1, 0, 0)]
+        sides = (5, 4, 3)
+        for order in itertools.permutations(range(3)):
+            for signs in itertools.product((1, -1), repeat=3):
+                bits = order[0] | order[1] << 2 | sum((sign < 0) << 4 + row for row, sign in enumerate(signs))
+                (self.folder / "t.vox").write_bytes(magica(model(sides, [(*v, 1) for v in body]), turn_node(0, 1, _r=str(bits), _t="9 -8 7") + shape_node(1, 0)))
+                cells = []
+                for voxel in body:
+                    middle = [v + 0.5 - side // 2 for v, side in zip(voxel, sides)]
+                    x, y, z = (math.floor(sign * middle[axis] + move) for sign, axis, move in zip(signs, order, (9, -8, 7)))
+                    cells.append((x, z, -1 - y))
+                self.boxes("t.vox", *cells)
+
     @unittest.skipUnless(NUMPY, "no NumPy here: apt-get install python3-numpy")
     def test_what_numpy_writes(self):
         subprocess.run([NUMPY, "-c", WITH_NUMPY, CELLS.hex()], cwd=self.folder, check=True)
@@ -243,6 +374,8 @@ class Volumes(unittest.TestCase):
         self.same("a.nrrd")
         unu("save", "-f", "nrrd", "-e", "gzip", "-i", "a.nrrd", "-o", "packed.nrrd")
         self.same("packed.nrrd")
+        unu("save", "-f", "nrrd", "-e", "ascii", "-i", "a.nrrd", "-o", "text.nrrd")
+        self.same("text.nrrd")
         for kind in ("int8", "short", "ushort", "int", "uint", "longlong", "ulonglong", "float", "double"):
             unu("convert", "-t", kind, "-i", "a.nrrd", "-o", f"{kind}.nrrd")
             self.same(f"{kind}.nrrd")

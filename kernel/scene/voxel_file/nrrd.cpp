@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -108,6 +109,50 @@ std::array<double, 3> spacing_of(const Header& header, const VoxelSource& source
   return spacing;
 }
 
+// Upper and lower case are the same in names of types, encodings and orders.
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), lower_case);
+  return text;
+}
+
+bool is_text(const std::string& encoding) {
+  return encoding == "ascii" || encoding == "text" || encoding == "txt";
+}
+
+// Reads numbers that are written as text, with blanks, ends of lines or commas between them.
+Voxels of_text(std::string_view text, const NumberBlock& block, const Header& header,
+               const VoxelSource& source) {
+  constexpr std::string_view kBetween = " \t\r\n\v\f,";
+  checked_bytes(block, source);
+  Voxels voxels;
+  for (std::size_t axis = 0; axis < 3; ++axis) voxels.size[axis] = static_cast<int>(block.size[axis]);
+  const std::size_t wanted = block.size[0] * block.size[1] * block.size[2];
+  if (text.size() / 2 + 1 < wanted)
+    source.fail(fmt::format("{} numbers are not {} bytes of text", wanted, text.size()));
+  voxels.filled.reserve(wanted);
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBetween), text.size()));
+    if (text.empty()) break;
+    const std::string_view word = text.substr(0, text.find_first_of(kBetween));
+    const std::optional<double> number = real_number_in(word);
+    if (!number) source.fail(fmt::format("number {} is {}", voxels.filled.size(), in_quotes(word)));
+    if (voxels.filled.size() == wanted) source.fail(fmt::format("it has more than {} numbers", wanted));
+    voxels.filled.push_back(source.is_filled(*number) ? 1 : 0);
+    text.remove_prefix(word.size());
+  }
+  if (voxels.filled.size() < wanted)
+    source.fail(fmt::format("it has {} of {} numbers: is it truncated?", voxels.filled.size(), wanted));
+  voxels.spacing = spacing_of(header, source);
+  return voxels;
+}
+
+// A type is named in many ways.
+NumberBlock::Type type_named(const std::string& type, const VoxelSource& source) {
+  const auto* const known = std::ranges::find(kTypes, type, &TypeName::name);
+  if (known == kTypes.end()) source.fail(fmt::format("type {} is not read", in_quotes(type)));
+  return known->type;
+}
+
 }  // namespace
 
 Voxels read_nrrd_voxels(std::string_view bytes, const VoxelSource& source) {
@@ -119,17 +164,14 @@ Voxels read_nrrd_voxels(std::string_view bytes, const VoxelSource& source) {
     return found == header.fields.end() ? std::string(fallback) : found->second;
   };
   NumberBlock block;
-  const std::string type = field("type");
-  const auto known =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& one) { return one.name == type; });
-  if (known == kTypes.end()) source.fail(fmt::format("type {} is not read", in_quotes(type)));
-  block.type = known->type;
+  block.type = type_named(lower(field("type")), source);
   if (field("dimension") != "3")
     source.fail(fmt::format("dimension {}: 3 is read", in_quotes(field("dimension"))));
   block.size = three_sides(field("sizes"), "sizes", source);
   pack_steps(block);
-  if (bytes_of(block.type) > 1) {
-    const std::string endian = field("endian");
+  const std::string encoding = lower(field("encoding"));
+  if (bytes_of(block.type) > 1 && !is_text(encoding)) {
+    const std::string endian = lower(field("endian"));
     if (endian != "little" && endian != "big")
       source.fail(fmt::format("endian {} is none", in_quotes(endian)));
     block.is_big_endian = endian == "big";
@@ -140,15 +182,17 @@ Voxels read_nrrd_voxels(std::string_view bytes, const VoxelSource& source) {
   const std::string apart = field("datafile", "");
   const std::string other = apart.empty() ? std::string() : read_beside(source, apart);
   const std::string_view data = apart.empty() ? bytes.substr(header.bytes) : std::string_view(other);
-  const std::string encoding = field("encoding");
   std::string unpacked;
+  if (is_text(encoding)) return of_text(data, block, header, source);
   if (encoding == "gzip" || encoding == "gz") {
     unpacked = unpack(data, Packing::gzip, checked_bytes(block, source), source);
     block.bytes = unpacked;
   } else if (encoding == "raw") {
     block.bytes = data;
   } else {
-    source.fail(fmt::format("encoding {} is not read; raw and gzip are", in_quotes(encoding)));
+    const bool is_bzip2 = encoding == "bzip2" || encoding == "bz2";
+    source.fail(fmt::format("encoding {} is not read; raw, gzip and ascii are{}", in_quotes(encoding),
+                            is_bzip2 ? ": `unu save -f nrrd -e gzip` converts it" : ""));
   }
   Voxels voxels = voxels_of(block, source);
   voxels.spacing = spacing_of(header, source);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -41,6 +42,22 @@ std::string endings() {
   return text;
 }
 
+Voxels read_raw(std::string_view bytes, const VoxelSource& source) {
+  static_assert(kNumberTypes.size() == static_cast<std::size_t>(NumberBlock::Type::float64) + 1);
+  const RawNumbers& raw = *source.raw;
+  if (raw.skip > bytes.size())
+    source.fail(fmt::format("it has {} bytes, and {} are to be skipped", bytes.size(), raw.skip));
+  NumberBlock block;
+  block.bytes = bytes.substr(raw.skip);
+  block.type = static_cast<NumberBlock::Type>(raw.type);
+  block.is_big_endian = raw.is_big_endian;
+  block.size = raw.size;
+  pack_steps(block);
+  Voxels voxels = voxels_of(block, source);
+  voxels.spacing = raw.spacing;
+  return voxels;
+}
+
 }  // namespace
 
 void VoxelSource::fail(const std::string& message) const {
@@ -52,9 +69,10 @@ bool is_voxel_file(const std::filesystem::path& file) { return format_of(file) !
 Voxels read_voxels(const VoxelSource& source) {
   const VoxelFormat* format = format_of(source.file);
   const std::string bytes = read_text_file(source.file, kLargestVoxelFile, source.place.text());
+  if (source.raw) return read_raw(bytes, source);
   if (format == nullptr)
-    source.fail(fmt::format("volumes are read from {}, not from {}", endings(),
-                            in_quotes(source.file.extension().string())));
+    source.fail(fmt::format("volumes are read from {}, not from {}; numbers without a header want `raw`",
+                            endings(), in_quotes(source.file.extension().string())));
   if (bytes.starts_with("version https://git-lfs"))
     source.fail("this is a pointer of Git LFS; `git lfs pull` brings the file");
   return format->read(bytes, source);

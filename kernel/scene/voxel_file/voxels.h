@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,12 +21,26 @@ struct Voxels {
   std::vector<std::uint8_t> filled;        // 0 or 1; x runs fastest, then y
 };
 
+// Names the types of numbers, in the order of NumberBlock::Type.
+inline constexpr std::array kNumberTypes{"int8",  "uint8",  "int16",   "uint16",  "int32",  "uint32",
+                                         "int64", "uint64", "float16", "float32", "float64"};
+
+// Describes numbers that a file holds without a header.
+struct RawNumbers {
+  std::array<std::uint64_t, 3> size{};
+  std::size_t type = 0;  // place in kNumberTypes
+  bool is_big_endian = false;
+  std::uint64_t skip = 0;  // bytes before the numbers
+  std::array<double, 3> spacing{1, 1, 1};
+};
+
 // Says what is read, and of what number a voxel is filled.
 struct VoxelSource {
   std::filesystem::path file;
   Place place;        // for messages
   std::string array;  // of a file of several; empty if none is named
   std::function<bool(double)> is_filled;
+  std::optional<RawNumbers> raw{};  // the file is these, whatever its name
 
   [[noreturn]] void fail(const std::string& message) const;
 };
