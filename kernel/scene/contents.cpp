@@ -62,7 +62,7 @@ void read_heightfield(Reader& reader, Terrain& terrain, state::Grid grid,
   const double base = reader.number("base", at_most(grid.y).because("the height of the grid"), 1.0);
   const int passes = reader.integer("smooth", 0, 64, 1);
 
-  Elevation elevation = read_esri_ascii(file, reader.place("file"));
+  Elevation elevation = read_elevation(file, reader.place("file"));
   if (elevation.missing > 0)
     warnings.push_back(fmt::format("{}: {} cells without data{} take the lowest elevation", file.string(),
                                    elevation.missing,

@@ -116,7 +116,7 @@ THIRD_PARTY = {
     "tbb/": [CPU],
     "embree3/": ["render/visibility"],
     "toml++/": ["kernel/scene/text"],
-    "png.h": ["render/image"],
+    "png.h": ["render/image", "kernel/scene/shape/png_heights.cpp"],
     "libdeflate": ["kernel/run/io/npz.cpp", "kernel/scene/voxel_file/unpack.cpp", "render/image"],
     "zstd.h": ["kernel/run/checkpoint"],
     "xxhash.h": ["kernel/run/checkpoint"],

@@ -20,10 +20,9 @@ namespace voxmelt::scene {
 namespace {
 
 constexpr std::size_t kLargestGridFile = std::size_t{1} << 30;
-constexpr int kLargestSide = 8192;
-constexpr double kHighest = 1e9;
-constexpr double kMissing = 2 * kHighest;  // no elevation is so high
-constexpr double kUsualNoData = -9999;     // if no header names another
+constexpr int kLargestSide = kLargestElevationSide;
+constexpr double kHighest = kHighestElevation, kMissing = kNoElevation;
+constexpr double kUsualNoData = -9999;  // if no header names another
 
 // Files of DOS end with the last but one, and padded ones with the last.
 constexpr std::string_view kBlanks(" \t\r\v\f\x1a\0", 7);
@@ -70,7 +69,7 @@ class EsriParser {
 
  private:
   Elevation finished() {
-    fill_missing();
+    if (!fill_missing(elevation_)) fail("every cell is without data");
     return std::move(elevation_);
   }
 
@@ -186,17 +185,6 @@ class EsriParser {
     }
   }
 
-  void fill_missing() {
-    double lowest = kMissing;
-    for (const double value : elevation_.value) lowest = std::min(lowest, value);
-    if (lowest == kMissing) fail("every cell is without data");
-    for (double& value : elevation_.value)
-      if (value == kMissing) {
-        value = lowest;
-        ++elevation_.missing;
-      }
-  }
-
   std::string_view text_, line_;
   char line_end_ = line_end_of(text_);
   const std::string& file_;
@@ -211,6 +199,11 @@ class EsriParser {
 Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place) {
   const std::string name = file.string();
   const std::string text = read_text_file(file, kLargestGridFile, place.text());
+  for (const std::string_view tiff :
+       {std::string_view("II*\0", 4), std::string_view("MM\0*", 4), std::string_view("II+\0", 4)})
+    if (text.starts_with(tiff))
+      fail_at(place, name + ": this is a TIFF; `gdal_translate -of AAIGrid` converts it");
+  if (text.starts_with("\x89PNG")) fail_at(place, name + ": this is a PNG; call it .png");
   return EsriParser(without_mark(text, place, name), name, place).parse();
 }
 

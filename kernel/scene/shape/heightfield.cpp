@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 
 #include "kernel/scene/shape/geometry.h"
+#include "kernel/scene/text/ascii.h"
 
 namespace voxmelt::scene {
 namespace {
@@ -20,6 +22,23 @@ std::array<double, 4> spline_weights(double t) {
 double Elevation::at(int column, int row) const {
   const int c = std::clamp(column, 0, columns - 1), r = std::clamp(row, 0, rows - 1);
   return value[place(c, r)];
+}
+
+Elevation read_elevation(const std::filesystem::path& file, const Place& place) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), lower_case);
+  return ending == ".png" ? read_png_heights(file, place) : read_esri_ascii(file, place);
+}
+
+bool fill_missing(Elevation& elevation) {
+  const double lowest = *std::ranges::min_element(elevation.value);
+  if (lowest == kNoElevation) return false;
+  for (double& value : elevation.value)
+    if (value == kNoElevation) {
+      value = lowest;
+      ++elevation.missing;
+    }
+  return true;
 }
 
 void smooth(Elevation& elevation, int passes) {

@@ -1,4 +1,4 @@
-// Terrain comes from ESRI ASCII grids of elevation, stretched smoothly over the whole grid.
+// Terrain comes from ESRI ASCII grids or grey pictures of elevation, stretched smoothly over the whole grid.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,10 @@
 #include "kernel/scene/text/document.h"
 
 namespace voxmelt::scene {
+
+inline constexpr int kLargestElevationSide = 8192;
+inline constexpr double kHighestElevation = 1e9;
+inline constexpr double kNoElevation = 2 * kHighestElevation;  // until fill_missing()
 
 // Holds elevations as in the file: `columns` per row from west to east, rows from north to south.
 struct Elevation {
@@ -25,6 +29,15 @@ struct Elevation {
 // Throws InputError with `place` and file:line. The file may be missing, truncated or malformed, or its sizes
 // outside 2..8192.
 Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place);
+
+// Reads a grey PNG of 1 to 16 bits. Throws InputError with `place` and the file.
+Elevation read_png_heights(const std::filesystem::path& file, const Place& place);
+
+// Reads one or the other, by the ending of the name.
+Elevation read_elevation(const std::filesystem::path& file, const Place& place);
+
+// Gives the lowest elevation to cells without one. Returns false if no cell has one.
+bool fill_missing(Elevation& elevation);
 
 // Applies `passes` of the 3 x 3 binomial filter, which smooth the terraces of elevations in whole metres.
 void smooth(Elevation& elevation, int passes);
