@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the cup of the tests: as OBJ by itself, and in the other formats by programs that are not ours.
+"""Writes the cup of the tests: as OBJ and MagicaVoxel by itself, and in the other formats by programs that are not ours.
 
   write_cup.py        in tests/data, with Debian's package assimp-utils
 
@@ -7,6 +7,7 @@ All coordinates are multiples of 1/16 and have at most five digits, so that no f
 STL, as it does in models for printing; in the others y does.
 """
 import math
+import struct
 import subprocess
 import tempfile
 from pathlib import Path
@@ -59,11 +60,41 @@ def text_of(vertices, faces):
     return text + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
 
 
+def crossings(vertices, faces, x, z):
+    """Where a vertical line passes the surface, from below: height, and whether it enters (1) or leaves (-1)."""
+    found = []
+    for face in faces:
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (vertices[i] for i in face)
+        u, v, w = ((bx - x) * (cz - z) - (bz - z) * (cx - x), (cx - x) * (az - z) - (cz - z) * (ax - x), (ax - x) * (bz - z) - (az - z) * (bx - x))
+        if (u > 0 and v > 0 and w > 0) or (u < 0 and v < 0 and w < 0):
+            found.append(((u * ay + v * by + w * cy) / (u + v + w), 1 if u + v + w > 0 else -1))
+    return sorted(found)
+
+
+def vox(vertices, faces, side=96):
+    """MagicaVoxel's file: a voxel is filled if the surface winds around its middle. z points up."""
+    low, high = ([end(v[axis] for v in vertices) for axis in range(3)] for end in (min, max))
+    to_unit = side / max(h - l for l, h in zip(low, high))  # a voxel is a cell, where the cup has no scene
+    nx, ny, nz = (math.ceil((h - l) * to_unit) for l, h in zip(low, high))
+    voxels = []
+    for i in range(nx):
+        for k in range(nz):
+            # a little beside the middle, where no corner of the cup lies
+            found = crossings(vertices, faces, low[0] + (i + 0.5003) / to_unit, low[2] + (k + 0.5007) / to_unit)
+            for j in range(ny):
+                if sum(way for height, way in found if height < low[1] + (j + 0.5) / to_unit) != 0:
+                    voxels.append(bytes((i, nz - 1 - k, j, 1)))
+    chunk = lambda name, content, children=b"": name + struct.pack("<II", len(content), len(children)) + content + children
+    body = chunk(b"SIZE", struct.pack("<3I", nx, nz, ny)) + chunk(b"XYZI", struct.pack("<I", len(voxels)) + b"".join(voxels))
+    return b"VOX " + struct.pack("<I", 150) + chunk(b"MAIN", b"", body)
+
+
 def main():
     vertices, faces = cup()
     folder = Path(__file__).resolve().parent
     text = text_of(vertices, faces)
     (folder / "cup.obj").write_text(text)
+    (folder / "cup.vox").write_bytes(vox(vertices, faces))
     with tempfile.TemporaryDirectory() as other:
         standing = Path(other) / "cup.obj"
         standing.write_text(text_of([(x, -z, y) for x, y, z in vertices], faces))
