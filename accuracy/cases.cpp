@@ -222,10 +222,16 @@ Cases levels() {
        "Shafts of 3 x 3 cells over a tunnel of 9 x 3 x 3. Its roofed part is squeezed as in the case "
        "tubes.",
        measure_u_tube},
+      {"flood", "Levels", "Relaxed heads flood a lake as all sub-steps do",
+       "A deep lake stands beside a shallow one, or a dry plane. Kappa 0.02.", measure_flood},
       {"rest", "Levels", "What should rest, rests",
        "A closed full box, a checkerboard pool, and a film with a yield stress, which may cost 3 % of "
        "roundness.",
        measure_rest},
+      {"yield_heap", "Levels", "A heap with a yield stress comes to rest in its shape",
+       "A block of 5 x 4 cells runs out from a wall, kappa 0.5. It should rest where depth times fall of the "
+       "surface is the yield stress, as a parabola of known length (Liu and Mei 1989).",
+       measure_yield_heap},
       {"cavities", "Levels", "A full cavity is at rest, whatever its ceiling",
        "Cavities of some 16 cells, closed all round and full. Each layer is hotter than the one below. "
        "Columns "

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -71,6 +72,64 @@ Outcome measure_deep_lake(const Conditions& conditions) {
       outcome.rows.push_back(std::move(row));
     }
   }
+  return outcome;
+}
+
+namespace {
+
+// A deep part of a lake stands beside a shallow one, and floods it. Its cells at the cliff give to cells that
+// stand on the shallow runs.
+struct Flood {
+  static constexpr int kLong = 64, kAway = 24;  // cells; how many are deep
+  static constexpr double kFlowing = 0.02;      // kappa
+  double deep, shallow;
+
+  Columns after(const Conditions& conditions, std::uint32_t steps, int substeps_max, Speed& speed) const {
+    Trial trial(conditions, "flow",
+                {fmt::format("grid.size=[{},{},{}]", kLong, static_cast<int>(deep) + 3, kWidth),
+                 fmt::format("flow.viscous.kappa={}", kFlowing),
+                 fmt::format("flow.viscous.substeps_max={}", substeps_max),
+                 fmt::format("flow.viscous.stages_max={}", substeps_max > 16 ? 1 : 16)},
+                [&](state::Volume& v) {
+                  for (int z = 0; z < kWidth; ++z)
+                    for (int x = 0; x < kLong; ++x) put_column(v, x, z, x < kAway ? deep : shallow);
+                });
+    trial.run_to(steps);
+    speed = trial.speed();
+    return Columns(trial.volume());
+  }
+
+  void measure(const Conditions& conditions, Outcome& outcome) const {
+    for (const std::uint32_t steps : {10u, 40u}) {
+      Speed speed;
+      const Columns exact = after(conditions, steps, 1024, speed);
+      for (const int substeps : {1, 4}) {
+        const Columns relaxed = after(conditions, steps, substeps, speed);
+        double elsewhere = 0, moved = 0;
+        for (int x = 0; x < kLong; ++x) {
+          const double depth = exact.at(x, kWidth / 2);
+          elsewhere += std::abs(relaxed.at(x, kWidth / 2) - depth) / 2;
+          moved += std::abs(depth - (x < kAway ? deep : shallow)) / 2;
+        }
+        outcome.rows.push_back(
+            {.setting = fmt::format("{:g} beside {:g} deep, at most {} sub-steps, step {}", deep, shallow,
+                                    substeps, steps),
+             .quantity = "liquid that lies elsewhere than with all sub-steps, part of what moved",
+             .value = elsewhere / moved,
+             .measure = Measure::absolute,
+             .gate = deep > 12 || substeps == 1 ? std::nullopt : std::optional(steps == 10 ? 0.08 : 0.03),
+             .speed = speed});
+      }
+    }
+  }
+};
+
+}  // namespace
+
+Outcome measure_flood(const Conditions& conditions) {
+  Outcome outcome;
+  for (const double deep : {12., 24.})
+    for (const double shallow : {0., 1.5, 6.}) Flood{deep, shallow}.measure(conditions, outcome);
   return outcome;
 }
 

@@ -17,9 +17,7 @@
 #include "accuracy/trial.h"
 
 namespace voxmelt::accuracy {
-namespace {
 
-// Returns half the sum of all changes of amounts in the next `steps`, in cells.
 double motion(Trial& trial, std::uint32_t steps) {
   const auto before = trial.volume().amount;
   trial.run_to(trial.steps() + steps);
@@ -30,6 +28,8 @@ double motion(Trial& trial, std::uint32_t steps) {
   });
   return sum / 2;
 }
+
+namespace {
 
 Trial flow(const Conditions& conditions, std::array<int, 3> size, std::vector<std::string> more,
            const Trial::Fill& fill) {

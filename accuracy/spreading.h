@@ -12,6 +12,7 @@ Outcome measure_dam_width(const Conditions&);
 Outcome measure_dam_refined(const Conditions&);
 Outcome measure_dam_viscosity(const Conditions&);
 Outcome measure_deep_lake(const Conditions&);
+Outcome measure_flood(const Conditions&);
 Outcome measure_hump(const Conditions&);
 Outcome measure_drop_shape(const Conditions&);
 

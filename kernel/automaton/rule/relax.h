@@ -49,7 +49,8 @@ VOXMELT_RULE std::int32_t leveling(std::int64_t conductance, std::int32_t slope,
 // Returns the head that a cell has at the end of stage j, integrated over time, in 1/32768 cell. `head` is in
 // 1/512 cell, from two cells below its own on, and `change` is what neighbours have added.
 VOXMELT_RULE std::int32_t integrated(std::int32_t head, std::int32_t change, int j, Relaxation relaxation) {
-  return static_cast<std::int32_t>((static_cast<std::int64_t>(head) * relaxation.time(j)) >> 10) + change;
+  const std::int64_t counted = std::min(kMostRelaxedHead, head);
+  return static_cast<std::int32_t>((counted * relaxation.time(j)) >> 10) + change;
 }
 
 // Returns what the higher cell gives to the lower one after stage j. Their integrated heads differ by

@@ -50,7 +50,7 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
   for (int stage = 1;; ++stage) {
     rows.for_each([&](int x, int y, int z) {
       const state::Slot i = cells.at(x, y, z);
-      const std::int32_t own_head = std::min(rule::kMostRelaxedHead, head_[i] - (y - 2) * rule::kHeadOne);
+      const std::int32_t own_head = head_[i] - (y - 2) * rule::kHeadOne;
       if (in_run_[i]) relaxed_[i] = rule::integrated(own_head, relaxing[i].change, stage, relaxation);
     });
     if (stage == relaxation.stages) return;

@@ -2,10 +2,15 @@
 // relies on, over all that a scene may say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <random>
 
 #include "kernel/automaton/rule/relax.h"
+#include "kernel/automaton/rule/solid_bed.h"
 #include "kernel/automaton/rule/viscous.h"
 
 namespace voxmelt::rule {
@@ -94,6 +99,96 @@ TEST(Bounds, ACliffLevelsAsADropOfOneCell) {
     const std::int32_t one_cell = relaxation.time(j) / 2;
     EXPECT_EQ(leveled(20 * one_cell, 65535, j, relaxation), leveled(one_cell, 65535, j, relaxation));
   }
+}
+
+// The same holds where the drop is that of relaxed heads.
+TEST(Bounds, ACliffOfRelaxedHeadsGivesAsADropOfOneCell) {
+  const Relaxation relaxation{8};
+  for (const bool diagonal : {false, true}) {
+    const std::int32_t one_cell = diagonal ? 724 * 64 : kRelaxedOne;
+    const Column giver = run_column(40 * kOne, 40, 0, 0, fluid(1 << 26), 1, relaxation);
+    const Column taker = run_column(8 * kOne, 8, 0, 0, fluid(1 << 26), 1, relaxation);
+    const auto flow = [&](std::int32_t fall) {
+      return relaxed_flow(giver, kOne, taker, kOne, diagonal, 0, 0, fall, relaxation);
+    };
+    EXPECT_GT(flow(one_cell), flow(one_cell / 2));
+    for (const int times : {2, 20, 2000}) EXPECT_EQ(flow(times * one_cell), flow(one_cell)) << times;
+  }
+}
+
+// An integrated head has 32 bits, and what neighbours add has room beside it.
+TEST(Bounds, AHigherHeadIsNoLessWhenIntegrated) {
+  for (int stages = 2; stages <= kMostStages; ++stages) {
+    std::int32_t before = 0;
+    for (std::int32_t head = 1; head <= (1 << 28); head *= 2) {
+      const std::int32_t now = integrated(head, 0, stages, Relaxation{stages});
+      ASSERT_TRUE(before <= now && now <= 1 << 30) << head;
+      before = now;
+    }
+  }
+}
+
+// A bed lies within half a cell of an upper face, or half a cell above that, where a mould or a melt left
+// more than a full cell.
+TEST(Bounds, ABedOfAnySolidIsOneThatAnInertCellCanHave) {
+  for (const std::int32_t latent_heat : {0, 5000, 40000})
+    for (std::int32_t amount = 0; amount <= kAmountMax; amount += 61)
+      for (const std::int32_t heat : {0, 20000, 30001, 65535}) {
+        const std::int32_t bed = SolidBed(true, 30000 + latent_heat / 2, latent_heat).offset(amount, heat);
+        ASSERT_TRUE(-kBedHalf <= bed && bed < kOne) << amount << " " << heat;
+      }
+}
+
+// Parts of a run pass its faces one after the other. What a cell holds meanwhile has 16 bits.
+TEST(Bounds, NoCellHoldsMoreThanItMayWhilePartsMove) {
+  std::mt19937 random(1);
+  constexpr std::size_t kCells = 40;
+  int kept = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::array<std::int64_t, kCells> amount{}, below{};  // `below`: sums up to and with each cell
+    const std::size_t heap = random() % kCells, heaped = random() % 6;  // cells that hold more than one
+    const std::int32_t most = std::array{2 * kOne, 5 * kOne, kAmountMax}[random() % 3];
+    std::int64_t mass = 0;
+    for (std::size_t k = 0; k < kCells; ++k) {
+      amount[k] = random() % (heap <= k && k < heap + heaped ? most : kOne / 4);
+      below[k] = mass += amount[k];
+    }
+    bool keeps = mass <= std::int64_t{kCells} * kOne;
+    const auto excess = [&](std::size_t k) { return face_excess(below[k], static_cast<std::int32_t>(k)); };
+    for (std::size_t k = 0; k + 1 < kCells; ++k) keeps = keeps && keeps_order_at(excess(k));
+    if (!keeps) continue;
+    ++kept;
+    const auto move = [&](std::size_t giver, std::size_t taker, std::int64_t part) {
+      amount[giver] -= part;
+      amount[taker] += part;
+      ASSERT_GE(amount[giver], 0);
+      ASSERT_LE(amount[taker], kAmountMax);
+    };
+    for (std::size_t k = 0; k + 1 < kCells; ++k) move(k, k + 1, settles_up(excess(k)));
+    for (std::size_t k = kCells - 1; k-- > 0;)
+      move(k + 1, k, settles_down(mass, below[k], static_cast<std::int32_t>(k)));
+  }
+  EXPECT_GT(kept, 100);
+}
+
+// Whole numbers stand for these, and none is more than half a unit off.
+TEST(Bounds, DeadZoneAndMobilityRoundToTheNearest) {
+  for (const std::int64_t mass : {16, 1000, 4096, 23456, 100000})
+    for (const int yield : {1, 7, 300, 5000, 65535}) {
+      Flow flow = fluid(99999999);
+      flow.viscous.yield = static_cast<std::uint16_t>(yield);
+      const std::int64_t depth = mass >> 4, dead = run_column(mass, 30, 0, 0, flow).dead;
+      EXPECT_TRUE(dead == 1 || std::abs(dead * depth - 2 * yield) * 2 <= depth) << mass << " " << yield;
+      const std::int64_t exact = 99999999 * (mass * mass >> 8);  // in 1/2^48
+      EXPECT_LE(std::abs((run_mobility(mass, 0, flow, 1) << 24) - exact), 1 << 23) << mass;
+    }
+}
+
+// A film of single units still has an amount that flows into what is dry.
+TEST(Bounds, WhatFlowsOfSomethingIsSomething) {
+  const Column giver = run_column(1, 1, 0, 0, fluid(1)), taker = bed_column(0);
+  for (std::int32_t amount = 1; amount < 100; ++amount)
+    EXPECT_GE(2 * flowing_amount(giver, amount, taker, 0), amount);
 }
 
 // K sub-steps carry what one step does, but for half a unit each.
