@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "accuracy/cells.h"
 #include "accuracy/measure.h"

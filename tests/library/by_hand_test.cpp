@@ -207,7 +207,7 @@ kappa = 0.05
     simulation.step(1);
     EXPECT_EQ(simulation.digest(), still) << "it shall sleep";
     simulation.carve({42, 4, 12}, 5);
-    simulation.step(12);
+    simulation.step(16);
     EXPECT_GT(simulation.state().amount.at(43, 3, 12), 0) << "it runs through the hole";
     digests.push_back(simulation.digest());
   }

@@ -153,9 +153,9 @@ CASES = [
       "e": liquid(20000, 1000, 550), "f": liquid(20000, 1000, 775)}, {}, {}),
 
     # F = 38192 of the bed, W = 8192 and lack = 4096: half of it is there, b = 0. The bed is 512 - 256 = 256 and the other one
-    # 512, the heads are 256 + 500 and 512 + 125. drop = 119, t = 8, s = 10923 + 4 x 1188 = 15675 and drive = 1821. kappa 1:
+    # 512, the heads are 256 + 500 and 512 + 125. drop = 119, t = 8, s = 10485 + 4 x 1310 = 15725 and drive = 1827. kappa 1:
     # raw = 3555556 and 222208, limit = 13107, m = 3355392 + 222208, c = 3577600 x 4000 / 4096 = 3493750. D(y) = 32768:
-    # w = (3493750 x 1821 + 1024 x 32768) / 2^26 = 95.3. By material 0 the bed would be molten: b = -2048.
+    # w = (3493750 x 1827 + 1024 x 32768) / 2^26 = 95.6. By material 0 the bed would be molten: b = -2048.
     ("a bed of another material", VISCOUS, material(20000) + others((30000, 8192, 1, 1)) + NOTHING, FLOWS, ["ab p#", "cd p#"],
      {"p": solid(34096, 1), "a": liquid(21000, 4000), "b": liquid(21000, 1000), "c": liquid(21000, 3905),
       "d": liquid(21000, 1095)}, {}, {"melted": 0}),

@@ -2,36 +2,52 @@
 #include "pair.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oracle {
 namespace {
 
-// Returns the slope of an axis or of a diagonal by t: floor((numerator + floor(q / 2)) / q).
-constexpr Int slope(Int t, bool diagonal) {
-  const Int root = 65536 + 256 * t * t + t * t * t * t;
-  const Int q = diagonal ? root * root : 256 + 2 * t * t;
-  const Int numerator = Int{1} << (diagonal ? 46 : 22);
-  return (numerator + q / 2) / q;
+// Returns `plane`, which is 16384 / (1 + q / 256)^2.
+constexpr Int plane_of(Int q) {
+  const Int root = (Int{1} << 22) / (256 + q);
+  return (root * root) >> 14;
+}
+static_assert(plane_of(0) == 16384 && plane_of(256) == 4096);
+
+// Returns the bed that a cell shows. A blocked one shows none.
+std::optional<Int> bed_at(const State& state, Place at) {
+  if (state.blocked(at.x, at.y, at.z)) return std::nullopt;
+  return shown_by(state, at.x, at.y, at.z).bed;
 }
 
-// The page lists the same from t = 0 on, first for an axis, then for a diagonal.
-constexpr Int SLOPES[2][17] = {{16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923, 10034, 9198,
-                                8422, 7710, 7061, 6473, 5941, 5461},
-                               {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511, 8165, 6880,
-                                5696, 4641, 3730, 2962, 2331, 1820}};
-constexpr bool slopes_are_as_listed() {
-  for (Int t = 0; t <= 16; ++t)
-    if (slope(t, false) != SLOPES[0][t] || slope(t, true) != SLOPES[1][t]) return false;
-  return true;
+// Returns how far the bed rises from one cell to another, in 1/16 cell. It is below 0 where the bed falls.
+Int climb(const State& state, Place from, Place to) {
+  const std::optional<Int> bed_from = bed_at(state, from), bed_to = bed_at(state, to);
+  if (!bed_from.has_value() || !bed_to.has_value()) return 0;
+  const Int difference = (*bed_to >> 5) - (*bed_from >> 5);
+  return larger(-31, smaller(31, difference));
 }
-static_assert(slopes_are_as_listed());
 
-// Returns t. `giver` and `taker` are what the cells of the pair show.
-Int tilt(const Run& giver, const Run& taker) {
-  if (!taker.bed.has_value()) return 0;
-  const Int difference = (*giver.bed >> 5) - (*taker.bed >> 5);
-  return smaller(16, larger(difference, -difference));
+// Returns the rise of two cells, in 1/16 cell.
+Int rise(const State& state, Place a, Place b) {
+  const Int difference = climb(state, a, b);
+  return larger(difference, -difference);
+}
+
+// Returns `across` of the pair of a cell and its neighbour in a direction.
+Int rise_across(const State& state, Place at, const Direction& direction) {
+  const Int dx = direction.dx, dz = direction.dz;
+  if (direction.diagonal) return rise(state, {at.x + dx, at.y, at.z}, {at.x, at.y, at.z + dz});
+  Int up = 0, down = 0;
+  for (const Place own : {at, Place{at.x + dx, at.y, at.z + dz}}) {
+    const Place before{own.x - dz, own.y, own.z - dx}, behind{own.x + dz, own.y, own.z + dx};
+    for (const Int step : {climb(state, before, own), climb(state, own, behind)}) {
+      up = larger(up, step);
+      down = larger(down, -step);
+    }
+  }
+  return larger(up - down, down - up);
 }
 
 // Returns p of a pair across an axis: how many of the four cells beside it are blocked.
@@ -47,8 +63,10 @@ Int blocked_beside(const State& state, Place at, const Direction& direction) {
 
 // Returns s: an axis also has an eighth for each blocked cell beside it.
 Int slope_of_pair(const State& state, Place at, const Direction& direction, Int t) {
-  if (direction.diagonal) return slope(t, true);
-  return slope(t, false) + blocked_beside(state, at, direction) * (slope(t, true) >> 3);
+  const Int across = rise_across(state, at, direction);
+  const Int squares = t * t + across * across;
+  const Int plane = plane_of(smaller(511, direction.diagonal ? squares >> 1 : squares));
+  return direction.diagonal ? plane : plane + blocked_beside(state, at, direction) * (plane >> 3);
 }
 
 // Returns R of an axis between cells at height y.
@@ -95,7 +113,7 @@ void find_pair(State& state, Int i, const Direction& direction, std::vector<Pair
     return;
   }
 
-  const Int t = tilt(giver, taker);
+  const Int t = rise(state, at, {x, at.y, z});
   const Int a = amount_between(taker, t, state.cells[i].amount, state.cells[j].amount);
   const Int m = mobility_of_pair(state.stages, giver, taker);
   Pair pair;

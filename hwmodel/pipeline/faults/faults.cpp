@@ -109,6 +109,7 @@ constexpr std::array kFaults{
     FaultInfo{viscous_set_gives, "viscous-set-gives", "spread", "liquid flows out of a set cell"},
     FaultInfo{viscous_dither, "viscous-dither", "spread", "an axis uses the dither of the next one"},
     FaultInfo{viscous_slope, "viscous-slope", "spread", "a pair on a slope flows as on a level bed"},
+    FaultInfo{viscous_across, "viscous-across", "spread", "a pair flows as on a bed that is level across it"},
     FaultInfo{viscous_mean, "viscous-mean", "spread",
               "between level beds the giver's amount alone counts, not the mean"},
     FaultInfo{viscous_substep, "viscous-substep", "spread",

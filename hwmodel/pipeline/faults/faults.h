@@ -84,6 +84,7 @@ enum class Fault : std::uint8_t {
   viscous_set_gives,
   viscous_dither,
   viscous_slope,
+  viscous_across,
   viscous_mean,
   viscous_substep,
   viscous_layer,

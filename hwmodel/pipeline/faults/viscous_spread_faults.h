@@ -1,6 +1,7 @@
 // These faults spoil the flows of the viscous spread. A flow moves inside the dead zone, between shut runs or
-// out of a set cell, or uses the dither of the next axis, sub-step or layer. It flows as on a level bed, by
-// the giver's amount alone, or is lost on its way. Others let cells leave without their side bands.
+// out of a set cell, or uses the dither of the next axis, sub-step or layer. It flows as on a level bed, or
+// on one that is level across, by the giver's amount alone, or is lost on its way. Others let cells leave
+// without their side bands.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,10 @@ class ViscousSpreadFaults : public Planted {
     if (!rests && armed(stage, Fault::viscous_slope)) {
       SeenCell level = from;
       level.bed = to.bed;
-      wrong = stage.wanted(level, to, pair, stage.dither_of_axis(axis));
+      wrong = stage.wanted(level, to, {axis, 0, pair.blocked_beside}, stage.dither_of_axis(axis));
     }
+    if (!rests && armed(stage, Fault::viscous_across))
+      wrong = stage.wanted(from, to, {axis, 0, pair.blocked_beside}, stage.dither_of_axis(axis));
     if (!rests && armed(stage, Fault::viscous_mean) && from.bed == to.bed) {
       SeenCell without_bed = to;  // the factor of the slope is that of a level bed, too
       without_bed.bed = kNoBed;

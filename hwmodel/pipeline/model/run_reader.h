@@ -38,6 +38,7 @@ struct SpreadWord {
   UInt<32> content;                             // amount x heat after them
   SInt<30> head;                                // head of the run, in its first cell
   UInt<1> west_blocked = 1, south_blocked = 1;  // the cells that came before it, beside it
+  SInt<6> west_rise, south_rise;                // how far the bed rises from those cells
   UInt<1> set;                                  // it gives nothing
   // The following belong to a blocked cell.
   RunPace above;                     // pace of the run that begins in the next cell up
@@ -53,7 +54,7 @@ struct SpreadWord {
   static int bits(int head_bits, const Design& design) {
     const int more = open_bits(design), heat = design.hot() ? 16 : 0;
     const int blocked = kDoneBits + heat + RunPace::kBits + SolidBed::kRiseBits + solid_bits(design);
-    const int open = kDoneBits + 16 + heat + (design.hot() ? 32 : 0) + head_bits + 2 + more;
+    const int open = kDoneBits + 16 + heat + (design.hot() ? 32 : 0) + head_bits + 2 + 2 * 6 + more;
     return std::max(blocked, open);
   }
   // Counts the bits that are kept once all pairs of a cell are done: ground, amount, heat, and either wall
@@ -78,7 +79,16 @@ struct SeenCell {
   SInt<30> head;
   RunPace pace;
   SInt<18> bed = kNoBed;  // 1/16 cell
+
+  bool blocked() const { return word->blocked(); }
 };
+
+// Returns how far the bed rises from a cell to another one, in 1/16 cell, below 0 if it falls. It is 0 where
+// one of them is blocked or shows none.
+inline SInt<6> bed_rise(const SeenCell& from, const SeenCell& to) {
+  if (from.blocked() || to.blocked() || from.bed == kNoBed || to.bed == kNoBed) return 0;
+  return std::clamp<std::int64_t>(std::int64_t{to.bed} - from.bed, -31, 31);
+}
 
 // Reads one lane of one tap. Its registers hold the run being read.
 class RunReader {

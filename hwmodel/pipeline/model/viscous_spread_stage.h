@@ -1,15 +1,14 @@
 // The stage runs the phase `spread` of the viscous law (docs/automaton.md, section 11). A pair is done when
 // its two cells have come and, for a diagonal, its corners, for an axis, the four cells beside it. So a cell
 // q that comes completes four pairs: q with SW and W with S across, S with SW along x, and W with SW along z.
-// The words of a pair's cells keep what lay beside them before. Each pair is computed once and booked at
-// both cells, in the taps.
+// The words of a pair's cells keep what lay beside them before, and how far its bed differed. Each pair is
+// computed once and booked at both cells, in the taps.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "hwmodel/pipeline/model/run_reader.h"
@@ -19,7 +18,8 @@ namespace voxmelt::hwmodel {
 
 struct SpreadPair {
   int axis;
-  UInt<3> blocked_beside;  // blocked cells of the four beside an axis pair
+  UInt<5> across;              // rise of the beds across the pair
+  UInt<3> blocked_beside = 0;  // blocked cells of the four beside an axis pair
 };
 
 template <class Faults>
@@ -54,9 +54,9 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
-  // A pair multiplies (g + mobility) a, slope x drop (the slope's factor is read from 17 words, an axis adds
-  // up to four eighths of the diagonal's) and c drive, and with heat f h. With heat, a cell multiplies A h
-  // and the mixture's rounding, and two multipliers serve the bed of a solid.
+  // A pair multiplies (g + mobility) a, slope x drop and c drive, and with heat f h. The slope's factor is
+  // read from a table of 512 words, by squares from tables of 33. An axis adds up to four eighths of it. With
+  // heat, a cell multiplies A h and the mixture's rounding, and two multipliers serve the bed of a solid.
   Units units() const override { return {13 + (hot_ ? 4 + 2 + 2 : 0), hot_ ? 1 : 0, 0}; }
 
  protected:
@@ -162,21 +162,41 @@ class ViscousSpread final : public Stage {
     if (walls_) note_walls(*q.word, w != nullptr ? w->word : nullptr, s != nullptr ? s->word : nullptr, q.x);
     q.word->west_blocked = blocked(w);
     q.word->south_blocked = blocked(s);
+    q.word->west_rise = rise(w, &q);
+    q.word->south_rise = rise(s, &q);
     const bool any = q.word->runs() || (w != nullptr && w->word->runs()) ||
                      (s != nullptr && s->word->runs()) || (sw != nullptr && sw->word->runs());
     if (!any) return;
-    const bool last_x = q.x == shape().grid.x - 1, last_z = z == shape().grid.z - 1;
-    if (last_x && s != nullptr) pair(q, *s, 1, 2 + beside(q.word->west_blocked, s->word->west_blocked));
-    if (last_z && w != nullptr) pair(q, *w, 0, 2 + beside(q.word->south_blocked, w->word->south_blocked));
+    if (q.x == shape().grid.x - 1 && s != nullptr) pair(q, *s, beside_x(q, *s, nullptr, nullptr));
+    if (z == shape().grid.z - 1 && w != nullptr) pair(q, *w, beside_z(q, *w, nullptr, nullptr));
     if (sw == nullptr) return;
-    if (q.x < shape().grid.x)
-      pair(*w, *sw, 1,
-           beside(blocked(&q), blocked(s)) + beside(w->word->west_blocked, sw->word->west_blocked));
-    if (z < shape().grid.z)
-      pair(*s, *sw, 0,
-           beside(blocked(&q), blocked(w)) + beside(s->word->south_blocked, sw->word->south_blocked));
-    if (!w->word->blocked() || !s->word->blocked()) pair(q, *sw, 2);
-    if (!q.word->blocked() || !sw->word->blocked()) pair(*w, *s, 3);
+    if (q.x < shape().grid.x) pair(*w, *sw, beside_x(*w, *sw, &q, s));
+    if (z < shape().grid.z) pair(*s, *sw, beside_z(*s, *sw, &q, w));
+    if (!w->blocked() || !s->blocked()) pair(q, *sw, {2, across({rise(w, s), 0, 0, 0})});
+    if (!q.blocked() || !sw->blocked()) pair(*w, *s, {3, across({rise(&q, sw), 0, 0, 0})});
+  }
+
+  // Return what lies beside a pair along z, or along x. The two cells that came later may be outside of the
+  // grid.
+  static SpreadPair beside_x(const SeenCell& a, const SeenCell& b, const SeenCell* later_a,
+                             const SeenCell* later_b) {
+    return {1, across({a.word->west_rise, b.word->west_rise, rise(&a, later_a), rise(&b, later_b)}),
+            beside(blocked(later_a), blocked(later_b)) + beside(a.word->west_blocked, b.word->west_blocked)};
+  }
+  static SpreadPair beside_z(const SeenCell& a, const SeenCell& b, const SeenCell* later_a,
+                             const SeenCell* later_b) {
+    return {
+        0, across({a.word->south_rise, b.word->south_rise, rise(&a, later_a), rise(&b, later_b)}),
+        beside(blocked(later_a), blocked(later_b)) + beside(a.word->south_blocked, b.word->south_blocked)};
+  }
+  // Walks across a pair: by the rises from what came before to its cells, and on to what came later.
+  static UInt<5> across(const std::array<std::int64_t, 4>& rises) {
+    const auto [low, high] = std::minmax_element(rises.begin(), rises.end());
+    const std::int64_t up = std::max<std::int64_t>(0, *high), down = std::max<std::int64_t>(0, -*low);
+    return std::max(up, down) - std::min(up, down);
+  }
+  static std::int64_t rise(const SeenCell* from, const SeenCell* to) {
+    return from == nullptr || to == nullptr ? 0 : std::int64_t{bed_rise(*from, *to)};
   }
 
   static bool blocked(const SeenCell* cell) { return cell == nullptr || cell->word->blocked(); }
@@ -191,10 +211,8 @@ class ViscousSpread final : public Stage {
     if (s != nullptr) s->beside_wall = 1;
   }
 
-  // An axis pair has so many blocked cells of the four beside it.
-  void pair(const SeenCell& a, const SeenCell& b, int axis, int blocked_beside = 0) {
-    if (a.word->blocked() || b.word->blocked() || a.head == b.head) return;
-    const SpreadPair pair{axis, blocked_beside};
+  void pair(const SeenCell& a, const SeenCell& b, const SpreadPair& pair) {
+    if (a.blocked() || b.blocked() || a.head == b.head) return;
     a.head > b.head ? flow(a, b, pair) : flow(b, a, pair);
   }
 
@@ -226,13 +244,12 @@ class ViscousSpread final : public Stage {
     return from.head - to.head <= (is_diagonal(axis) ? (11 * dead) >> 3 : dead);
   }
 
-  // Returns the factor by the difference of the beds, in 1/16 cell. The hardware has two tables of 17 words.
-  static UInt<15> slope_factor(const SeenCell& from, const SeenCell& to, bool diagonal) {
-    if (from.bed == kNoBed || to.bed == kNoBed) return 16384;
-    const UInt<5> steps = std::min<std::int64_t>(16, std::abs(std::int64_t{from.bed} - to.bed));
-    const std::int64_t square = steps * steps, root = 65536 + 256 * square + square * square;
-    const std::int64_t divisor = diagonal ? root * root : 256 + 2 * square;
-    return ((std::int64_t{1} << (diagonal ? 46 : 22)) + divisor / 2) / divisor;
+  // Returns the factor of the slope, in 1/16384. The hardware has a table of 512 words.
+  static UInt<15> slope_factor(const SeenCell& from, const SeenCell& to, const SpreadPair& pair) {
+    const std::int64_t along = bed_rise(from, to), across = pair.across;
+    const std::int64_t square = (along * along + across * across) >> (is_diagonal(pair.axis) ? 1 : 0);
+    const std::int64_t root = (1 << 22) / (256 + std::min<std::int64_t>(511, square));
+    return root * root >> 14;
   }
 
   // Returns the amount at the face, which lies between the columns. On a slope the giver's amount alone
@@ -245,8 +262,8 @@ class ViscousSpread final : public Stage {
   static std::int64_t wanted(const SeenCell& from, const SeenCell& to, const SpreadPair& pair,
                              std::int64_t dither) {
     const bool diagonal = is_diagonal(pair.axis);
-    const UInt<12> across = slope_factor(from, to, true) >> 3;
-    const UInt<15> slope = slope_factor(from, to, diagonal) + pair.blocked_beside * across;
+    const UInt<15> plane = slope_factor(from, to, pair);
+    const UInt<15> slope = plane + pair.blocked_beside * (plane >> 3);
     const std::int64_t drop = from.head - to.head;
     const SpreadWord& giver = *from.word;
     const SpreadWord& taker = *to.word;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "kernel/automaton/rule/fixed_point.h"
@@ -158,28 +157,25 @@ VOXMELT_RULE Column top_column(const Column& below) {
 }
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
-// A film on a slope carries 1 / (1 + s^2)^2 of what it carries on level ground. Axes and diagonals together
-// do so in all directions, with 1 / (1 + 2 s^2) and 1 / (1 + s^2 + s^4)^2. Here s is the difference of the
-// pair's own two beds. The table is in 1/16384, by 16 s.
-inline constexpr std::int32_t kSteepest = 16;
-using SlopeTable = std::array<std::int32_t, kSteepest + 1>;
-inline constexpr std::array<SlopeTable, 2> kSlopeFactor = [] {  // [diagonal]
-  std::array<SlopeTable, 2> factor{};
-  for (std::int64_t t = 0; t <= kSteepest; ++t) {
-    const std::int64_t axis = 256 + 2 * t * t, root = 65536 + 256 * t * t + t * t * t * t, both = root * root;
-    factor[0][t] = static_cast<std::int32_t>(((1 << 22) + axis / 2) / axis);
-    factor[1][t] = static_cast<std::int32_t>(((std::int64_t{1} << 46) + both / 2) / both);
-  }
-  return factor;
-}();
-// A diagonal to a blocked cell carries nothing. Its share goes to the axes along it, an eighth of an axis
-// each. `blocked_beside` counts the blocked cells of the four beside an axis pair. It is 0 for a diagonal.
-VOXMELT_RULE std::int32_t slope_factor(std::int32_t bed, std::int32_t other, bool diagonal,
-                                       int blocked_beside) {
+// A film on a slope S carries 1 / (1 + S^2)^2 of what it carries on level ground, in every direction to the
+// grid. A pair knows the difference of its own two beds, and another one across: for an axis the largest of
+// those to the cells beside it, for a diagonal that of its corners. All are in 1/16 cell.
+inline constexpr std::int32_t kSteepest = 31;
+
+// Returns how far two beds differ, or 0 where one of them is none.
+VOXMELT_RULE std::int32_t bed_rise(std::int32_t bed, std::int32_t other) {
   const bool sloped = bed != kNoBed && other != kNoBed;
-  const std::int32_t t = sloped ? std::min(kSteepest, std::max(bed - other, other - bed)) : 0;
-  const std::int32_t across = kSlopeFactor[1][t];
-  return diagonal ? across : kSlopeFactor[0][t] + blocked_beside * (across >> 3);
+  return sloped ? std::min(kSteepest, std::max(bed - other, other - bed)) : 0;
+}
+// Returns the factor in 1/16384. A diagonal to a blocked cell carries nothing. Its share goes to the axes
+// along it, an eighth of an axis each. `blocked_beside` counts the blocked cells of the four beside an axis
+// pair. It is 0 for a diagonal.
+VOXMELT_RULE std::int32_t slope_factor(std::int32_t along, std::int32_t across, bool diagonal,
+                                       int blocked_beside) {
+  const std::int32_t square = (along * along + across * across) >> (diagonal ? 1 : 0);  // in 1/256
+  const std::int32_t root = (1 << 22) / (256 + std::min(511, square));
+  const std::int32_t factor = (root * root) >> 14;
+  return factor + blocked_beside * (factor >> 3);
 }
 
 // Returns the amount that flows at a drop. Between level beds it is the mean of both cells, since the face
@@ -223,10 +219,10 @@ VOXMELT_RULE std::int32_t most_flow(std::int32_t a, const Column& taker, std::in
 // in a run.
 VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither,
-                                       int blocked_beside = 0) {
+                                       int blocked_beside = 0, std::int32_t across = 0) {
   if (!gives(giver, taker, diagonal)) return 0;
   const std::int32_t drop = std::min(giver.head - taker.head, diagonal ? 724 : kHeadOne);
-  const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
+  const std::int32_t slope = slope_factor(bed_rise(giver.bed, taker.bed), across, diagonal, blocked_beside);
   const std::int64_t drive = (slope * drop) >> 10;  // 1/8192 cell
   const std::int64_t product = conductance(giver, a, taker, b) * drive, offset = dither;
   const auto wanted = static_cast<std::int32_t>(diagonal ? (product + (offset << 12)) >> 28
@@ -239,13 +235,13 @@ VOXMELT_RULE std::int32_t viscous_flow(const Column& giver, std::int32_t a, cons
 // does the result.
 VOXMELT_RULE std::int32_t relaxed_flow(const Column& giver, std::int32_t a, const Column& taker,
                                        std::int32_t b, bool diagonal, std::int32_t dither, int blocked_beside,
-                                       std::int32_t fall, Relaxation relaxation) {
+                                       std::int32_t fall, Relaxation relaxation, std::int32_t across = 0) {
   if (!gives(giver, taker, diagonal)) return 0;
   const std::int32_t most = (diagonal ? 724 : kHeadOne) * (kRelaxedOne / kHeadOne);
   const std::int32_t own = std::min(giver.head - taker.head, 1024) * (kRelaxedOne / kHeadOne);
   const bool back = taker.in_run && fall < 0;
   const std::int64_t drop = std::min(taker.in_run ? (back ? -fall : fall) : own, most);
-  const std::int32_t slope = slope_factor(giver.bed, taker.bed, diagonal, blocked_beside);
+  const std::int32_t slope = slope_factor(bed_rise(giver.bed, taker.bed), across, diagonal, blocked_beside);
   const std::int64_t drive = (2 * slope * drop) >> 16;  // 1/16384 cell
   const int bits = relaxation.bits();
   const std::int64_t product = (conductance(giver, a, taker, b, relaxation) * drive) >> (8 + bits);
@@ -260,12 +256,12 @@ VOXMELT_RULE std::int32_t relaxed_flow(const Column& giver, std::int32_t a, cons
 // one's relaxed head is higher.
 VOXMELT_RULE std::int32_t flow_between(const Column& one, std::int32_t a, const Column& other, std::int32_t b,
                                        bool diagonal, std::int32_t dither, int blocked_beside,
-                                       std::int32_t fall, Relaxation relaxation) {
+                                       std::int32_t fall, Relaxation relaxation, std::int32_t across) {
   if (!relaxation.relaxes())
-    return viscous_flow(one, a, other, b, diagonal, dither, blocked_beside) -
-           viscous_flow(other, b, one, a, diagonal, dither, blocked_beside);  // one of them is 0
-  return relaxed_flow(one, a, other, b, diagonal, dither, blocked_beside, fall, relaxation) -
-         relaxed_flow(other, b, one, a, diagonal, dither, blocked_beside, -fall, relaxation);
+    return viscous_flow(one, a, other, b, diagonal, dither, blocked_beside, across) -
+           viscous_flow(other, b, one, a, diagonal, dither, blocked_beside, across);  // one of them is 0
+  return relaxed_flow(one, a, other, b, diagonal, dither, blocked_beside, fall, relaxation, across) -
+         relaxed_flow(other, b, one, a, diagonal, dither, blocked_beside, -fall, relaxation, across);
 }
 
 }  // namespace voxmelt::rule

@@ -50,6 +50,7 @@ class Reference final : public step::HostStepper {
   void relax(rule::Relaxation relaxation, const Volume& volume);
   void viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger);
   rule::Column shown(const Cells& cells, int x, int y, int z) const;
+  std::int32_t rise_across(const Cells& cells, int x, int y, int z, rule::Direction to) const;
   rule::Column column_of(state::Slot i) const {  // of a cell in a run
     return {head_[i], mobility_[i], exposed_[i], dead_[i], true, bed_[i], limit_[i]};
   }

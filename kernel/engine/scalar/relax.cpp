@@ -41,8 +41,9 @@ void Reference::relax(rule::Relaxation relaxation, const Volume& volume) {
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
       return rule::leveling(
           rule::conductance(from, volume.amount[giver], there, volume.amount[taker], relaxation),
-          rule::slope_factor(from.bed, there.bed, diagonal, walls), std::min(filled_[giver], filled_[taker]),
-          diagonal, relaxation);
+          rule::slope_factor(rule::bed_rise(from.bed, there.bed), rise_across(cells, x, y, z, to), diagonal,
+                             walls),
+          std::min(filled_[giver], filled_[taker]), diagonal, relaxation);
     };
     // At most one of them gives.
     leveling[d][i] = levels(i, j, is_set(x, y, z)) + levels(j, i, is_set(x + to.dx, y, z + to.dz));

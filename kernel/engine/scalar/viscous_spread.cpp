@@ -33,6 +33,28 @@ rule::Column Reference::shown(const Cells& cells, int x, int y, int z) const {
   return rule::air_column(y);
 }
 
+// Returns how steep the beds of an open pair are across it. At the bottom of a valley they are level.
+std::int32_t Reference::rise_across(const Cells& cells, int x, int y, int z, rule::Direction to) const {
+  const int nx = x + to.dx, nz = z + to.dz;
+  std::int32_t up = 0, down = 0;
+  const auto walk = [&](int ax, int az, int bx, int bz) {  // from a to b
+    if (cells.blocked(ax, y, az) || cells.blocked(bx, y, bz)) return;
+    const std::int32_t a = shown(cells, ax, y, az).bed, b = shown(cells, bx, y, bz).bed;
+    std::int32_t& most = b > a ? up : down;
+    most = std::max(most, rule::bed_rise(a, b));
+  };
+  if (to.dx != 0 && to.dz != 0) {
+    walk(nx, z, x, nz);
+  } else {
+    const int ax = to.dz, az = to.dx;  // across
+    walk(x - ax, z - az, x, z);
+    walk(x, z, x + ax, z + az);
+    walk(nx - ax, nz - az, nx, nz);
+    walk(nx, nz, nx + ax, nz + az);
+  }
+  return std::max(up, down) - std::min(up, down);
+}
+
 void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledger) {
   const ActiveRows rows(volume);
   const Cells cells(volume);
@@ -62,8 +84,9 @@ void Reference::viscous_spread(step::Moment moment, Volume& volume, Ledger& ledg
           rule::pair_dither(moment.step, kDitherAxis[d], y, moment.substep, moment.substeps);
       const bool diagonal = rule::is_diagonal(d);
       const int walls = diagonal ? 0 : blocked_beside(cells, x, y, z, to);
-      const std::int32_t wanted = rule::flow_between(own, volume.amount[i], there, volume.amount[j], diagonal,
-                                                     offset, walls, relaxed_[i] - relaxed_[j], relaxation);
+      const std::int32_t wanted =
+          rule::flow_between(own, volume.amount[i], there, volume.amount[j], diagonal, offset, walls,
+                             relaxed_[i] - relaxed_[j], relaxation, rise_across(cells, x, y, z, to));
       const bool may = may_flow(wanted, own.head > there.head, is_set(x, y, z), is_set(nx, y, nz));
       const std::int32_t given = may ? wanted : 0;
       const std::int32_t taken = std::max(0, -given);

@@ -97,7 +97,7 @@ class RelaxLayer : ViscousPairs<Arch, true> {
     any = true;
     const M gate = L::from_bits(p.moves << (part * L::kCount), part);
     V factor = L::set(16384);
-    this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor);
+    this->template level<kDiagonal>(p, gate, factor);
     const V flow = L::high(p.conductance.coarse, factor), scale = L::set(step_.relaxed_scale);
     const V high = L::high(flow, scale);
     V cell = high;

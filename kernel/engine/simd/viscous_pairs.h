@@ -11,15 +11,6 @@
 
 namespace voxmelt::simd {
 
-// Less flows on a slope. The factors go by 16 times the difference of two beds in cells, and 1 is 16384.
-struct SlopeFactors {
-  alignas(64) std::uint16_t axis[32] = {16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923,
-                                        10034, 9198,  8422,  7710,  7061,  6473,  5941,  5461};
-  alignas(64) std::uint16_t diagonal[32] = {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511,
-                                            8165,  6880,  5696,  4641,  3730,  2962,  2331,  1820};
-};
-inline constexpr SlopeFactors kSlope;
-
 template <class Arch, bool kRelaxed>
 class ViscousPairs {
  protected:
@@ -29,20 +20,22 @@ class ViscousPairs {
   using Wide = typename L::Wide;
 
   [[gnu::always_inline]] ViscousPairs(const View& view, const Step& step, const Runs& runs)
-      : v_(view), r_(runs), step_(step), slope_{L::table(kSlope.axis), L::table(kSlope.diagonal)} {}
+      : v_(view), r_(runs), step_(step) {}
 
   [[gnu::always_inline]] void go_to_slice(int z) {
     z_ = z;
     const auto front = z + 1 < v_.nz ? static_cast<std::ptrdiff_t>(v_.slice) : 0;  // 0: masked
     const std::ptrdiff_t steps[4] = {1, front, front + 1, front - 1};
     for (int axis = 0; axis < 4; ++axis) to_other_[axis] = steps[axis];
+    to_back_ = z > 0 ? -static_cast<std::ptrdiff_t>(v_.slice) : 0;  // 0: masked
   }
 
   struct Masks {
-    std::uint64_t in_run, there[4];   // this cell, the other one of a pair
-    std::uint64_t pair[4], any;       // open, one of them is in a run, and not both in shut ones
-    std::uint64_t beside[2][4];       // blocked cells beside the axis pairs
-    bool walls;                       // any of them beside a pair
+    std::uint64_t in_run, there[4];  // this cell, the other one of a pair
+    std::uint64_t pair[4], any;      // open, one of them is in a run, and not both in shut ones
+    std::uint64_t beside[2][4];  // blocked cells beside the axis pairs: two of this cell, two of the other
+    std::uint64_t corners[2];    // a diagonal's corners, either of them blocked
+    bool walls;                  // any cell beside a pair is blocked
     std::uint64_t set, set_there[4];  // cells that are set: this one, the other one of a pair
   };
 
@@ -89,14 +82,18 @@ class ViscousPairs {
     for (const std::uint64_t pairs : m.pair) m.any |= pairs;
     if (m.any == 0) return false;
 
-    // The axis pairs carry the share of diagonals to blocked cells.
     const std::uint64_t back = v_.blocked(w, y, z_ - 1);
     const std::uint64_t back_right = cpu::from_right(back, v_.blocked(w + 1, y, z_ - 1));
-    const std::uint64_t beside[2][4] = {{front, front_right, back, back_right},
+    const std::uint64_t beside[2][4] = {{front, back, front_right, back_right},
                                         {left, right, front_left, front_right}};
     m.walls = false;
     for (int axis = 0; axis < 2; ++axis)
-      for (int i = 0; i < 4; ++i) m.walls |= (m.beside[axis][i] = beside[axis][i] & m.pair[axis]) != 0;
+      for (int i = 0; i < 4; ++i) {
+        m.beside[axis][i] = beside[axis][i];
+        m.walls |= (beside[axis][i] & m.pair[axis]) != 0;
+      }
+    m.corners[0] = right | front;
+    m.corners[1] = left | front;
     return true;
   }
 
@@ -130,9 +127,10 @@ class ViscousPairs {
   };
 
   struct Pair {
-    V drop, bed, giver, taker, blocked;  // the other's bed; amounts; blocked cells beside an axis pair
-    M gives;                             // the first cell gives
-    std::uint64_t moves;                 // lanes that give
+    V drop, giver, taker;      // giver and taker: amounts
+    V along, across, blocked;  // rises of beds; blocked cells beside an axis pair
+    M gives;                   // the first cell gives
+    std::uint64_t moves;       // lanes that give
     Conductance conductance;
   };
 
@@ -163,9 +161,11 @@ class ViscousPairs {
     p.taker = L::select(p.gives, amount, own.amount);
     const Mobility both = mobilities(own, there, p.gives, here_runs, there_runs);
     // Between level beds the mean flows. (A giver shows a bed.)
-    p.bed = L::load_any(r_.bed + there);
-    const V flowing = L::select(L::equal(own.bed, p.bed), L::mean(own.amount, amount), p.giver);
+    const V bed = L::load_any(r_.bed + there);
+    const V flowing = L::select(L::equal(own.bed, bed), L::mean(own.amount, amount), p.giver);
     p.conductance = conductance(both, flowing);
+    p.along = rise(own.bed, bed);
+    p.across = rise_across<kDiagonal>(own.bed, bed, at, axis, part, m);
     p.blocked = L::zero();
     if (!kDiagonal && m.walls)
       for (const std::uint64_t blocked : m.beside[axis])
@@ -180,17 +180,18 @@ class ViscousPairs {
     p.moves &= ~((gives & m.set >> (part * L::kCount)) | (~gives & m.set_there[axis] >> (part * L::kCount)));
   }
 
-  // Tells if all beds are level, or none, and nothing blocked is beside a pair. Else it gives the factor.
+  // Tells if all beds are level, or none, and nothing blocked is beside a pair. Else it gives the factor of
+  // the slope, in 1/16384.
   template <bool kDiagonal>
-  [[gnu::always_inline]] bool level(V bed, V other, V blocked, M gate, V& factor) const {
-    const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
-    const M none = L::equal(L::min(bed, other), L::zero());
-    const V steps = L::keep(gate, L::select(none, L::zero(), L::min(between, L::set(16))));
-    const bool walls = !kDiagonal && L::nonzero(blocked);
-    if (!L::nonzero(steps) && !walls) return true;
-    const V at = L::template shift_left<11>(steps);
-    factor = L::lookup(slope_[kDiagonal], at);
-    if (walls) factor = factor + L::low(blocked, L::template shift_right<3>(L::lookup(slope_[1], at)));
+  [[gnu::always_inline]] bool level(const Pair& p, M gate, V& factor) const {
+    const bool walls = !kDiagonal && L::nonzero(L::keep(gate, p.blocked));
+    if (!L::nonzero(L::keep(gate, p.along | p.across)) && !walls) return true;
+    V square = L::low(p.along, p.along) + L::low(p.across, p.across);
+    if constexpr (kDiagonal) square = L::template shift_right<1>(square);
+    const auto whole = typename L::W(1 << 22);
+    const V root = L::divide({whole, whole}, L::set(256) + L::min(square, L::set(511))).quotient;
+    factor = L::high(root + root, root + root);
+    if (walls) factor = factor + L::low(p.blocked, L::template shift_right<3>(factor));
     return false;
   }
 
@@ -205,9 +206,46 @@ class ViscousPairs {
   const Runs r_;
   const Step& step_;
   int z_ = 0;
-  std::ptrdiff_t to_other_[4];  // to the other cell of a pair
+  std::ptrdiff_t to_other_[4], to_back_ = 0;  // to the other cell of a pair, and to the slice before
 
  private:
+  // Returns how far two beds differ, in 1/16 cell. It is 0 where one of them is none.
+  [[gnu::always_inline]] static V rise(V bed, V other) {
+    const V between = L::sub_saturated(bed, other) | L::sub_saturated(other, bed);
+    return L::select(L::equal(L::min(bed, other), L::zero()), L::zero(), L::min(between, L::set(31)));
+  }
+  // Walks across the pair, from bed to bed.
+  struct Walk {
+    V up = L::zero(), down = L::zero();  // the largest rise each way
+    [[gnu::always_inline]] void from(V a, V b, std::uint64_t blocked, int part) {
+      const M shows = L::less(L::zero(), L::keep(L::from_bits(~blocked, part), L::min(a, b)));
+      up = L::max(up, L::keep(shows, L::min(L::sub_saturated(b, a), L::set(31))));
+      down = L::max(down, L::keep(shows, L::min(L::sub_saturated(a, b), L::set(31))));
+    }
+    [[gnu::always_inline]] V across() const {
+      return L::sub_saturated(up, down) | L::sub_saturated(down, up);
+    }
+  };
+  // Returns how steep the beds of a pair are across it. At the bottom of a valley they are level.
+  template <bool kDiagonal>
+  [[gnu::always_inline]] V rise_across(V own, V other, std::ptrdiff_t at, int axis, int part,
+                                       const Masks& m) const {
+    const auto bed = [&](std::ptrdiff_t to) VOXMELT_LAMBDA { return L::load_any(r_.bed + at + to); };
+    const std::ptrdiff_t front = to_other_[1], there = to_other_[axis];
+    Walk walk;
+    if constexpr (kDiagonal) {
+      walk.from(bed(axis == 2 ? 1 : -1), bed(front), m.corners[axis - 2], part);
+    } else {
+      const std::ptrdiff_t ahead = axis == 0 ? front : -1, behind = axis == 0 ? to_back_ : 1;
+      const std::uint64_t* beside = m.beside[axis];
+      walk.from(own, bed(ahead), beside[0], part);
+      walk.from(bed(behind), own, beside[1], part);
+      walk.from(other, bed(there + ahead), beside[2], part);
+      walk.from(bed(there + behind), other, beside[3], part);
+    }
+    return walk.across();
+  }
+
   // Limits a mobility by the depth towards a run, and by 1/8 towards a bare flank.
   [[gnu::always_inline]] Mobility limited(V coarse, V fine, M to_run, V limit) const {
     const V most = L::select(to_run, limit, L::set(kRelaxed ? 8192 >> step_.relaxed_bits : 8192));
@@ -248,8 +286,6 @@ class ViscousPairs {
         L::select(over, L::set(0xFFFF), L::template shift_left<4>(high) | L::template shift_right<12>(low)),
         L::select(over, kept, rest & kept)};
   }
-
-  const typename L::Table slope_[2];  // for axes, for diagonals
 };
 
 }  // namespace voxmelt::simd

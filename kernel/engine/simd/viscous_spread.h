@@ -114,9 +114,9 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
     V flow;
     if constexpr (kFeatures.relaxed) {
       may_flow = true;
-      flow = L::min(relaxed<kDiagonal>(p, own, drop, axis, gate), most);
+      flow = L::min(relaxed<kDiagonal>(p, drop, axis, gate), most);
     } else {
-      flow = L::min(wanted<kDiagonal>(p, own, axis, gate, most, may_flow), most);
+      flow = L::min(wanted<kDiagonal>(p, axis, gate, most, may_flow), most);
     }
     flow = L::keep(gate, flow);
     return L::select(p.gives, flow, L::zero() - flow);
@@ -125,10 +125,9 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
   // (c drive + (R << 10)) >> 26 is computed as (c drive >> 8, and R << 2) >> 18, since the fine bits of c
   // only carry. Diagonals do likewise. In 32 bits a lane, the lower half is not kept.
   template <bool kDiagonal>
-  [[gnu::always_inline]] V wanted(const Pair& p, const Cell& own, int axis, M gate, V most,
-                                  bool& may_flow) const {
+  [[gnu::always_inline]] V wanted(const Pair& p, int axis, M gate, V most, bool& may_flow) const {
     V drive = L::min(p.drop, L::set(kDiagonal ? 724 : 512)), factor;  // in 1/8192 cell
-    drive = this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor)
+    drive = this->template level<kDiagonal>(p, gate, factor)
                 ? L::template shift_left<4>(drive)
                 : L::high(L::template shift_left<6>(drive), factor);
     const V fine = L::high(p.conductance.fine, drive), low = L::low(p.conductance.coarse, drive) + fine;
@@ -163,9 +162,9 @@ class ExchangePairs : ViscousPairs<Arch, kFeatures.relaxed> {
 
   // Returns what relaxed heads let flow, at most 65535. (c drive >> (8 + bits)) has 32 bits.
   template <bool kDiagonal>
-  [[gnu::always_inline]] V relaxed(const Pair& p, const Cell& own, V drop, int axis, M gate) const {
+  [[gnu::always_inline]] V relaxed(const Pair& p, V drop, int axis, M gate) const {
     V drive = L::template shift_right<1>(drop), factor;  // in 1/16384 cell
-    if (!this->template level<kDiagonal>(own.bed, p.bed, p.blocked, gate, factor))
+    if (!this->template level<kDiagonal>(p, gate, factor))
       drive = L::high(drop, L::template shift_left<1>(factor));
 
     const V fine = L::high(p.conductance.fine, drive), product = L::low(p.conductance.coarse, drive);

@@ -1,11 +1,10 @@
 // Heads relax before the viscous law's spread (docs/automaton.md, section 11, "Relaxed heads").
 
 // Returns what the pair i, j levels in one stage if i gives.
-FN int leveling_of(CONSTANTS, GLOBAL const uchar* F, Shown giver, int a, Shown taker, int b, int diagonal, int walls,
-                   Relaxation how) {
+FN int leveling_of(Shown giver, int a, Shown taker, int b, int diagonal, int walls, int across, Relaxation how) {
   if (!gives(giver, taker, diagonal)) return 0;
   long coarse = ((conductance(giver, a, taker, b, how) >> (8 + how.bits)) *
-                 slope_factor(giver.column.bed, taker.column.bed, diagonal, walls)) >> 16;
+                 slope_factor(bed_rise(giver.column.bed, taker.column.bed), across, diagonal, walls)) >> 16;
   long cells = imin(giver.column.cells, taker.column.cells);
   return (int)lmin(65535, cells * ((coarse * how.scale) >> (diagonal ? 16 : 14)));
 }
@@ -34,8 +33,9 @@ KERNEL(begin_relaxing)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* 
         int diagonal = d >= 4, walls = diagonal ? 0 : blocked_beside(P, F, i, d), b = A[j];
         int set = FREEZING_POINT > 0 && (T[j] & SET) != 0u;
         if (!(own.column.shut && there.column.shut)) {
-          if (!own_set) level += leveling_of(P, F, own, a, there, b, diagonal, walls, how);
-          if (!set) level += leveling_of(P, F, there, b, own, a, diagonal, walls, how);
+          int across = rise_across(P, tables, F, A, H, run, records, i, d, y);
+          if (!own_set) level += leveling_of(own, a, there, b, diagonal, walls, across, how);
+          if (!set) level += leveling_of(there, b, own, a, diagonal, walls, across, how);
         }
       }
       leveling[(long)d * CELLS + i] = (ushort)level;

@@ -15,15 +15,15 @@ FN Relaxation relaxation_of(int stages) {
 }
 FN int time_of(Relaxation how, int j) { return (int)(65536L * (j * j + j) / (how.stages * how.stages + how.stages)); }
 
-TABLE int slope_axis[17] = {16384, 16257, 15888, 15308, 14564, 13707, 12788, 11848, 10923,
-                            10034, 9198,  8422,  7710,  7061,  6473,  5941,  5461};
-TABLE int slope_diagonal[17] = {16384, 16256, 15876, 15254, 14407, 13365, 12168, 10864, 9511,
-                                8165,  6880,  5696,  4641,  3730,  2962,  2331,  1820};
-FN int slope_factor(int bed, int other, int diagonal, int blocked_beside) {
-  int t = 0;
-  if (bed != NO_BED && other != NO_BED) t = imin(16, bed > other ? bed - other : other - bed);
-  int across = slope_diagonal[t];
-  return diagonal ? across : slope_axis[t] + blocked_beside * (across >> 3);
+// Returns how far two beds differ, or 0 where one of them is none.
+FN int bed_rise(int bed, int other) {
+  return bed == NO_BED || other == NO_BED ? 0 : imin(31, bed > other ? bed - other : other - bed);
+}
+FN int slope_factor(int along, int across, int diagonal, int blocked_beside) {
+  int square = (along * along + across * across) >> diagonal;
+  int root = (1 << 22) / (256 + imin(511, square));
+  int factor = (root * root) >> 14;
+  return factor + blocked_beside * (factor >> 3);
 }
 
 // Is what a cell shows. in_run: its own run's column.
@@ -80,22 +80,23 @@ FN int most_flow(int a, Shown taker, int b, int diagonal) {
   return diagonal ? most >> 2 : most;
 }
 
-FN int viscous_flow(Shown giver, int a, Shown taker, int b, int diagonal, int dither, int blocked_beside) {
+FN int viscous_flow(Shown giver, int a, Shown taker, int b, int diagonal, int dither, int blocked_beside,
+                    int across) {
   if (!gives(giver, taker, diagonal)) return 0;
   int drop = imin(giver.column.head - taker.column.head, diagonal ? 724 : HEAD_ONE);
-  int slope = slope_factor(giver.column.bed, taker.column.bed, diagonal, blocked_beside);
+  int slope = slope_factor(bed_rise(giver.column.bed, taker.column.bed), across, diagonal, blocked_beside);
   long product = conductance(giver, a, taker, b, relaxation_of(1)) * ((slope * drop) >> 10), offset = dither;
   int wanted = (int)(diagonal ? (product + (offset << 12)) >> 28 : (product + (offset << 10)) >> 26);
   return imin(wanted, most_flow(a, taker, b, diagonal));
 }
-FN int relaxed_flow(Shown giver, int a, Shown taker, int b, int diagonal, int dither, int blocked_beside, int fall,
-                    Relaxation how) {
+FN int relaxed_flow(Shown giver, int a, Shown taker, int b, int diagonal, int dither, int blocked_beside, int across,
+                    int fall, Relaxation how) {
   if (!gives(giver, taker, diagonal)) return 0;
   int most = (diagonal ? 724 : HEAD_ONE) * (RELAXED_ONE / HEAD_ONE);
   int own = imin(giver.column.head - taker.column.head, 1024) * (RELAXED_ONE / HEAD_ONE);
   int back = taker.in_run && fall < 0;
   long drop = imin(taker.in_run ? (back ? -fall : fall) : own, most);
-  int slope = slope_factor(giver.column.bed, taker.column.bed, diagonal, blocked_beside);
+  int slope = slope_factor(bed_rise(giver.column.bed, taker.column.bed), across, diagonal, blocked_beside);
   long drive = (2L * slope * drop) >> 16;
   long product = (conductance(giver, a, taker, b, how) * drive) >> (8 + how.bits);
   long offset = ((long)dither << (diagonal ? 5 : 3)) >> how.bits;
@@ -108,6 +109,32 @@ FN int blocked_beside(CONSTANTS, GLOBAL const uchar* F, int i, int d) {
   int along = d < 2 ? direction_x(d) : direction_z(d) * SLICE, across = d < 2 ? SLICE : 1;
   return is_blocked(F[i + across]) + is_blocked(F[i - across]) + is_blocked(F[i + along + across]) +
          is_blocked(F[i + along - across]);
+}
+
+// Returns how far the bed rises from a cell to another one, below 0 if it falls. It is 0 where one of them is blocked.
+FN int rise_between(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
+                    GLOBAL const ushort* H, GLOBAL const ushort* run, GLOBAL const Column* records, int i, int j, int y) {
+  if (is_blocked(F[i]) || is_blocked(F[j])) return 0;
+  int from = shown(P, tables, F, A, H, run, records, i, y).column.bed;
+  int to = shown(P, tables, F, A, H, run, records, j, y).column.bed;
+  return to > from ? bed_rise(from, to) : -bed_rise(from, to);
+}
+// Returns how steep the beds of an open pair are across it. At the bottom of a valley they are level.
+FN int rise_across(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
+                   GLOBAL const ushort* H, GLOBAL const ushort* run, GLOBAL const Column* records, int i, int d, int y) {
+  int dx = direction_x(d), dz = direction_z(d) * SLICE, up = 0, down = 0;
+  if (d >= 4) {
+    up = rise_between(P, tables, F, A, H, run, records, i + dx, i + dz, y);
+    return up < 0 ? -up : up;
+  }
+  int across = d < 2 ? SLICE : 1;
+  for (int k = 0; k < 4; ++k) {
+    int from = (k < 2 ? i : i + dx + dz) - (k & 1) * across;
+    int rise = rise_between(P, tables, F, A, H, run, records, from, from + across, y);
+    up = imax(up, rise);
+    down = imax(down, -rise);
+  }
+  return up > down ? up - down : down - up;
 }
 
 // The axes of the dither: x, z, and the two diagonals.
@@ -139,14 +166,15 @@ KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, 
         Shown there = shown(P, tables, F, A, H, run, records, j, y);
         if (own.column.shut && there.column.shut) continue;
         int diagonal = d >= 4, walls = diagonal ? 0 : blocked_beside(P, F, i, d), b = A[j];
+        int across = rise_across(P, tables, F, A, H, run, records, i, d, y);
         int offset = pair_dither(step, dither_axis(d), y, substep, substeps), wanted;
         if (stages == 1) {
-          wanted = viscous_flow(own, a, there, b, diagonal, offset, walls) -
-                   viscous_flow(there, b, own, a, diagonal, offset, walls);
+          wanted = viscous_flow(own, a, there, b, diagonal, offset, walls, across) -
+                   viscous_flow(there, b, own, a, diagonal, offset, walls, across);
         } else {
           int fall = own.in_run && there.in_run ? heads[i] - heads[j] : 0;
-          wanted = relaxed_flow(own, a, there, b, diagonal, offset, walls, fall, how) -
-                   relaxed_flow(there, b, own, a, diagonal, offset, walls, -fall, how);
+          wanted = relaxed_flow(own, a, there, b, diagonal, offset, walls, across, fall, how) -
+                   relaxed_flow(there, b, own, a, diagonal, offset, walls, across, -fall, how);
         }
         if (wanted == 0) continue;
         int set = FREEZING_POINT > 0 && (T[j] & SET) != 0u, higher = own.column.head > there.column.head;

@@ -124,6 +124,7 @@ TEST(ViscousFaults, Shut) { expect_found(Fault::viscous_shut, Phase::spread, "sp
 TEST(ViscousFaults, SetGives) { expect_found(Fault::viscous_set_gives, Phase::spread, "spread", false, 15); }
 TEST(ViscousFaults, Dither) { expect_found(Fault::viscous_dither, Phase::spread, "spread"); }
 TEST(ViscousFaults, Slope) { expect_found(Fault::viscous_slope, Phase::spread, "spread"); }
+TEST(ViscousFaults, Across) { expect_found(Fault::viscous_across, Phase::spread, "spread"); }
 TEST(ViscousFaults, Mean) { expect_found(Fault::viscous_mean, Phase::spread, "spread"); }
 TEST(ViscousFaults, Substep) { expect_found(Fault::viscous_substep, Phase::spread, "spread"); }
 TEST(ViscousFaults, Layer) { expect_found(Fault::viscous_layer, Phase::spread, "spread"); }

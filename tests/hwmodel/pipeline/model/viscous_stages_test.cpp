@@ -434,10 +434,10 @@ TEST(ViscousStages, ShutRunsGiveEachOtherNothing) {
 }
 
 // Liquid of 2048 on a full solid flows to the air above a solid of 1024, by one axis. The beds are 512 and
-// 128, so the slope is t = 16 - 4 = 12: (2^22 + 272) / 544 = 7710. All four cells beside the pair are border,
-// and the diagonal's slope is 4641: s = 7710 + 4 x 580 = 10030. The drop of 768 - 128 = 640 is cut to 512,
-// drive = 10030 x 512 >> 10 = 5015. exposed = 2^21, a = 2048, c = 2^20. The layer y = 1 has the dither 32768.
-// The flow is (2^20 x 5015 + 32768 x 2^10) >> 26 = floor(78.36 + 0.5) = 78, less than a fifth of 2048.
+// 128, so the slope is t = 16 - 4 = 12: q = 144, root = 2^22 / 400 = 10485, 10485^2 >> 14 = 6709. All four
+// cells beside the pair are border: s = 6709 + 4 x 838 = 10061. The drop of 768 - 128 = 640 is cut to 512,
+// drive = 10061 x 512 >> 10 = 5030. exposed = 2^21, a = 2048, c = 2^20. The layer y = 1 has the dither 32768.
+// The flow is (2^20 x 5030 + 32768 x 2^10) >> 26 = floor(78.59 + 0.5) = 79, less than a fifth of 2048.
 TEST(ViscousStages, SpreadFlowsDownToASolidBed) {
   const Design design = bed_design({2, 2, 1}, 8192);
   state::Volume start(design.shape.grid);
@@ -448,8 +448,8 @@ TEST(ViscousStages, SpreadFlowsDownToASolidBed) {
   make_both(design, make_stage, stages);
   StageRun run;
   const state::Volume found = run_stages(design, stages, step::Moment(0), nullptr, start, run);
-  EXPECT_EQ(found.amount[found.at(0, 1, 0)], 1970);
-  EXPECT_EQ(found.amount[found.at(1, 1, 0)], 78);
+  EXPECT_EQ(found.amount[found.at(0, 1, 0)], 1969);
+  EXPECT_EQ(found.amount[found.at(1, 1, 0)], 79);
   EXPECT_EQ(found.amount[found.at(1, 0, 0)], 1024);
 }
 

@@ -2,7 +2,6 @@
 // relies on, over all that a scene may say.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -139,7 +138,7 @@ TEST(Bounds, ABedOfAnySolidIsOneThatAnInertCellCanHave) {
       }
 }
 
-// Parts of a run pass its faces one after the other. What a cell holds meanwhile has 16 bits.
+// Parts of a run pass its faces one after the other. Meanwhile no cell holds more than 16 bits say.
 TEST(Bounds, NoCellHoldsMoreThanItMayWhilePartsMove) {
   std::mt19937 random(1);
   constexpr std::size_t kCells = 40;
@@ -189,6 +188,16 @@ TEST(Bounds, WhatFlowsOfSomethingIsSomething) {
   const Column giver = run_column(1, 1, 0, 0, fluid(1)), taker = bed_column(0);
   for (std::int32_t amount = 1; amount < 100; ++amount)
     EXPECT_GE(2 * flowing_amount(giver, amount, taker, 0), amount);
+}
+
+// However high a cliff is, a table of 512 words has its factor. Liquid that stands on it still flows over.
+TEST(Bounds, WhatFlowsOverACliffIsANinthOrMore) {
+  for (const bool diagonal : {false, true})
+    for (std::int32_t height = 32; height <= 16 * kTallest; height += 1 + height / 3) {
+      const std::int32_t rise = bed_rise(0, height);
+      for (const std::int32_t across : {0, rise})
+        ASSERT_GE(slope_factor(rise, across, diagonal, 0), 16384 / 9) << height;
+    }
 }
 
 // K sub-steps carry what one step does, but for half a unit each.

@@ -258,47 +258,63 @@ TEST(ViscousFlow, ADeepGiverHoldsBack) {
   EXPECT_EQ(viscous_flow(run_at(kHeadOne, 3000), 4096, run_at(0, 100), 4096, false, 0), 96);  // 3100: 96.9
 }
 
-TEST(SlopeFactor, Value) {
-  for (const bool diagonal : {false, true}) {
-    EXPECT_EQ(slope_factor(40, 40, diagonal, 0), 16384);
-    EXPECT_EQ(slope_factor(40, kNoBed, diagonal, 0), 16384) << "air has no slope";
-    EXPECT_EQ(slope_factor(40, 4000, diagonal, 0), slope_factor(40, 56, diagonal, 0))
-        << "a cliff is as steep as 1";
-    EXPECT_EQ(slope_factor(40, 43, diagonal, 0), slope_factor(43, 40, diagonal, 0));
-  }
-  EXPECT_EQ(slope_factor(40, 48, false, 0), 10923);
-  EXPECT_EQ(slope_factor(40, 56, false, 0), 5461);
-  EXPECT_EQ(slope_factor(40, 48, true, 0), 9511);
-  EXPECT_EQ(slope_factor(40, 56, true, 0), 1820);
-  for (std::int32_t t = 0; t <= 16; ++t) {
-    const double s2 = t * t / 256.0;
-    EXPECT_NEAR(slope_factor(0, t, false, 0), 16384 / (1 + 2 * s2), 0.5);
-    EXPECT_NEAR(slope_factor(0, t, true, 0), 16384 / std::pow(1 + s2 + s2 * s2, 2), 0.5);
-  }
+TEST(BedRise, Value) {
+  EXPECT_EQ(bed_rise(40, 40), 0);
+  EXPECT_EQ(bed_rise(40, 43), 3);
+  EXPECT_EQ(bed_rise(43, 40), 3);
+  EXPECT_EQ(bed_rise(4000, 40), 31) << "a cliff is nearly as steep as 2";
+  EXPECT_EQ(bed_rise(40, kNoBed), 0) << "air has no bed";
+  EXPECT_EQ(bed_rise(kNoBed, 40), 0);
 }
 
-// A blocked cell beside an axis pair adds an eighth of the diagonal's factor. All four of them make a channel
+TEST(SlopeFactor, Value) {
+  for (const bool diagonal : {false, true}) EXPECT_EQ(slope_factor(0, 0, diagonal, 0), 16384);
+  EXPECT_EQ(slope_factor(8, 0, false, 0), 10485);  // (2^22 / 320)^2 / 2^14: 13107^2 / 16384 = 10485.4
+  EXPECT_EQ(slope_factor(0, 8, false, 0), 10485);
+  EXPECT_EQ(slope_factor(16, 0, false, 0), 4096);  // a slope of 1: 1/4
+  EXPECT_EQ(slope_factor(16, 0, true, 0), 7280);   // 128 / 256: 10922^2 / 16384 = 7280.9
+  EXPECT_EQ(slope_factor(16, 16, true, 0), 4096);
+  EXPECT_EQ(slope_factor(32, 32, false, 0), 1824);  // 511: 5468^2 / 16384 = 1824.9
+  EXPECT_EQ(slope_factor(32, 32, true, 0), 1824);
+  for (std::int32_t along = 0; along <= 16; ++along)
+    for (std::int32_t across = 0; across < 16; ++across) {
+      const double square = along * along + across * across;
+      EXPECT_NEAR(slope_factor(along, across, false, 0), 16384 / std::pow(1 + square / 256, 2), 3);
+      EXPECT_NEAR(slope_factor(along, across, true, 0), 16384 / std::pow(1 + std::floor(square / 2) / 256, 2),
+                  3);
+    }
+}
+
+// A blocked cell beside an axis pair adds an eighth of its factor. All four of them make a channel
 // of one cell, which carries what the axis and two diagonals carry in a sheet: 2/3 + 2/3 x 4/8 = 1.
 TEST(SlopeFactor, AnAxisHasTheShareOfBlockedDiagonals) {
   for (int blocked = 0; blocked <= 4; ++blocked) {
-    EXPECT_EQ(slope_factor(40, 40, false, blocked), 16384 + 2048 * blocked);
-    EXPECT_EQ(slope_factor(40, 56, false, blocked), 5461 + 227 * blocked);  // 1820 / 8 = 227.5
-    EXPECT_EQ(slope_factor(40, 56, true, blocked), 1820);
+    EXPECT_EQ(slope_factor(0, 0, false, blocked), 16384 + 2048 * blocked);
+    EXPECT_EQ(slope_factor(16, 0, false, blocked), 4096 + 512 * blocked);
   }
 }
 
-// On a plane of slope S, a film's axes carry 2/3 and its diagonals 1/3, and the sum goes straight down.
+// On a plane of any slope, a film's axes carry 2/3 and its diagonals 1/3, and the sum goes straight down.
 TEST(SlopeFactor, AFilmCarriesNusseltsFluxInEveryDirection) {
-  const auto factor = [](double between, bool diagonal) {
-    return slope_factor(0, static_cast<std::int32_t>(std::lround(16 * std::abs(between))), diagonal, 0) /
-           16384.0;
+  const auto sixteenths = [](double between) {
+    return static_cast<std::int32_t>(std::lround(16 * std::abs(between)));
   };
-  for (const std::array<double, 2> slope :
-       {std::array{0.25, 0.0}, {0.5, 0.0}, {0.25, 0.25}, {0.375, 0.375}, {0.4375, 0.1875}, {0.25, 0.125}}) {
+  const auto factor = [&](double along, double across, bool diagonal) {
+    return slope_factor(sixteenths(along), sixteenths(across), diagonal, 0) / 16384.0;
+  };
+  for (const std::array<double, 2> slope : {std::array{0.25, 0.0},
+                                            {0.5, 0.0},
+                                            {0.25, 0.25},
+                                            {0.4375, 0.1875},
+                                            {1.0, 0.0},
+                                            {0.75, 0.75},
+                                            {0.9375, 0.4375},
+                                            {0.5, 1.25}}) {
     const double x = slope[0], z = slope[1], sum = x + z, difference = x - z;
-    const double right = factor(sum, true) * sum / 6, left = factor(difference, true) * difference / 6;
-    const double along_x = factor(x, false) * x * 2 / 3 + right + left;
-    const double along_z = factor(z, false) * z * 2 / 3 + right - left;
+    const double right = factor(sum, difference, true) * sum / 6;
+    const double left = factor(difference, sum, true) * difference / 6;
+    const double along_x = factor(x, z, false) * x * 2 / 3 + right + left;
+    const double along_z = factor(z, x, false) * z * 2 / 3 + right - left;
     const double square = x * x + z * z, exact = square / std::pow(1 + square, 2);
     EXPECT_NEAR((along_x * x + along_z * z) / exact, 1, 0.01) << x << ", " << z;
     EXPECT_NEAR((along_z * x - along_x * z) / exact, 0, 0.01) << x << ", " << z;
@@ -310,18 +326,21 @@ Column run_on(std::int32_t bed, Column column) {
   return column;
 }
 
-// 256 (diagonals: 64) flow between level beds. 2/3 of it flow on slope 1/2 (diagonals: 0.5805), and 1/3 on 1.
+// 256 (diagonals: 64) flow between level beds. 0.64 of it flow on slope 1/2. A diagonal that falls by 1/2
+// lies on a slope of 0.354, where 0.79 flow.
 TEST(ViscousFlow, IsLessOnASlope) {
-  const auto flow = [](std::int32_t bed, bool diagonal, std::int32_t dither) {
+  const auto flow = [](std::int32_t bed, bool diagonal, std::int32_t dither, std::int32_t across = 0) {
     return viscous_flow(run_on(24, run_at(kHeadOne, 4096)), 4096, run_on(bed, run_at(0, 4096)), 4096,
-                        diagonal, dither);
+                        diagonal, dither, 0, across);
   };
   EXPECT_EQ(flow(24, false, 0), 256);
-  EXPECT_EQ(flow(16, false, 0), 170);      // 170.66
-  EXPECT_EQ(flow(16, false, 24576), 171);  // and the dither adds 3/8
-  EXPECT_EQ(flow(16, true, 0), 37);        // 37.14
-  EXPECT_EQ(flow(16, true, 57344), 38);    // and the dither adds 7/8
-  EXPECT_EQ(flow(0, false, 0), 85);
+  EXPECT_EQ(flow(24, false, 0, 8), 163);
+  EXPECT_EQ(flow(16, false, 0), 163);      // 163.81
+  EXPECT_EQ(flow(16, false, 24576), 164);  // and the dither adds 3/8
+  EXPECT_EQ(flow(16, true, 0), 50);        // 50.56
+  EXPECT_EQ(flow(16, true, 57344), 51);    // and the dither adds 7/8
+  EXPECT_EQ(flow(8, false, 0), 64);
+  EXPECT_EQ(flow(0, false, 0), 28);  // steeper than 1.41: 28.5
 }
 
 TEST(ViscousFlow, BetweenLevelBedsIsAPlainProduct) {
