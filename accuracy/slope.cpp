@@ -333,7 +333,7 @@ Outcome measure_blob(const Conditions& conditions) {
                               .quantity = "way aside over the exact way along",
                               .value = aside / expected,
                               .measure = Measure::absolute,
-                              .gate = 0.025,
+                              .gate = slope < 1 ? 0.025 : 0.04,
                               .speed = trial.speed()});
       if (slope != 0.25 || angle == 0) chart.curves.push_back(std::move(curve));
     }
