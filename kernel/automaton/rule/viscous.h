@@ -158,8 +158,9 @@ VOXMELT_RULE Column top_column(const Column& below) {
 VOXMELT_RULE Column air_column(int y) { return {(y - 2) * kHeadOne, 0, 0, 0, false}; }
 
 // A film on a slope S carries 1 / (1 + S^2)^2 of what it carries on level ground, in every direction to the
-// grid. A pair knows the difference of its own two beds, and another one across: for an axis the largest of
-// those to the cells beside it, for a diagonal that of its corners. All are in 1/16 cell.
+// grid. A pair knows the difference of its own two beds, and another one across. For an axis that is, of the
+// rises beside it on a walk across, the largest up less the largest down. For a diagonal it is that of its
+// corners. All are in 1/16 cell.
 inline constexpr std::int32_t kSteepest = 31;
 
 // Returns how far two beds differ, or 0 where one of them is none.
