@@ -1,5 +1,5 @@
-// Gravity and the paper's excess of one lane (docs/automaton.md, section 8), under both readings of the
-// energy. Numbers tell how many registers a value is behind the cell q that came, which meets the cell p below
+// Gravity of one lane, under both laws, and the paper's excess (docs/automaton.md, section 8), under both
+// readings of the energy. Numbers tell how many registers a value is behind the cell q that came, which meets the cell p below
 // it. The cell p is complete then, and leaves.
 //
 // No product lies in a loop, but for heat that climbs. What falls depends on amounts alone:
@@ -8,16 +8,20 @@
 //
 // `ready` depends on q as it came. Energy follows seven registers later and knows the flow. Heat that falls is
 // mixed outside of all loops. Heat that climbs needs a division before the next cell can come, so it waits.
+//
+// Under the viscous law nothing climbs, and no cell of a run falls.
 module gravity_lane (
     input  logic               clk,
     input  logic               rst,
     input  logic               move,
     input  voxmelt_pkg::cell_t cell_in,
+    input  logic               in_run,       // the same cell
     input  logic               first,        // no cell of its column came before it
     input  logic               top,          // nothing comes above it
     input  logic               live13,       // a token, and no bits from before the reset, is in register 13
     input  logic [15:0]        dither13,     // of the step of the cell in register 13
     input  logic [15:0]        dither18,
+    input  logic               paper,        // the law
     input  logic               hot,
     input  logic               printed,      // the reading of the energy's equations
     input  logic [16:0]        factor,
@@ -30,7 +34,7 @@ module gravity_lane (
 );
   // Registers 1 to 6 prepare what q is ready to give.
   voxmelt_pkg::cell_t cell1, cell2, cell5, cell6;
-  logic first1, top1, stays2, hangs2, first5, stays5, hangs5, first6, hangs6, holds6;
+  logic first1, top1, free1, stays2, hangs2, free2, first5, stays5, hangs5, free5, first6, hangs6, holds6;
   logic [16:0] want5;
   logic [16:0] left6;
   logic signed [17:0] above6;
@@ -39,8 +43,9 @@ module gravity_lane (
   product times_factor (
       .clk(clk), .en(move), .a($signed({2'b0, cell1.amount})), .b(cell1.beside_wall ? wall_factor : factor),
       .p(part4));
-  delay #(.WIDTH(70), .N(3)) prepares (
-      .clk(clk), .en(move), .d({first2, stays2, hangs2, cell2}), .q({first5, stays5, hangs5, cell5}));
+  delay #(.WIDTH(71), .N(3)) prepares (
+      .clk(clk), .en(move), .d({free2, first2, stays2, hangs2, cell2}),
+      .q({free5, first5, stays5, hangs5, cell5}));
   logic first2;
   wire [15:0] ready5 = stays5 ? 16'd0 : want5 > 17'(cell5.amount) ? cell5.amount : want5[15:0];
 
@@ -51,7 +56,7 @@ module gravity_lane (
   wire signed [17:0] sum = above6 + $signed({2'b0, low});  // a_q - ONE + a_p
   wire pair = ~first6 & ~low_blocked & ~cell6.state[1];
   wire down = pair & holds6 & (low < voxmelt_pkg::ONE) & ~(hangs6 & low_empty);
-  wire up = pair & (low > voxmelt_pkg::ONE);
+  wire up = paper & pair & (low > voxmelt_pkg::ONE);
   wire [15:0] fallen = sum > $signed({1'b0, left6}) ? sum[15:0] : left6[15:0];
   wire [15:0] risen = sum > $signed({2'b0, voxmelt_pkg::AMAX}) ? voxmelt_pkg::AMAX : sum[15:0];
   wire [15:0] high = down ? fallen : up ? risen : cell6.amount;
@@ -111,8 +116,10 @@ module gravity_lane (
       cell1 <= cell_in;
       first1 <= first;
       top1 <= top;
+      free1 <= paper | ~in_run;
       cell2 <= cell1;
       first2 <= first1;
+      free2 <= free1;
       stays2 <= cell1.is_set & covered1;
       hangs2 <= (cell1.amount < hang) & covered1;
 
@@ -120,7 +127,7 @@ module gravity_lane (
       cell6 <= cell5;
       first6 <= first5;
       hangs6 <= hangs5;
-      holds6 <= cell5.amount != 16'd0;
+      holds6 <= free5 & (cell5.amount != 16'd0);
       left6 <= 17'(cell5.amount) - 17'(ready5);
       above6 <= $signed({2'b0, cell5.amount}) - $signed({2'b0, voxmelt_pkg::ONE});
 
@@ -172,7 +179,7 @@ module gravity_lane (
       held <= stays + climbs;
       warmth <= turns ? mixed : cell13.heat;
       below <= cell13.state;
-      below_set <= cell13.is_set;
+      below_set <= paper & cell13.is_set;  // the viscous law has spread before
 
       content18 <= here17[31:0] + fallen17[31:0];
 

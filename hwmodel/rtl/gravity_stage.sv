@@ -15,6 +15,8 @@ module gravity_stage #(
     input  logic [31:0]         step,
     input  voxmelt_pkg::place_t last,
     input  logic [23:0]         lag,
+    input  logic [P-1:0]        in_runs,    // viscous law: which of the cells are in a run
+    input  logic                paper,      // the law
     input  logic                hot,
     input  logic                printed,
     input  logic [16:0]         factor,
@@ -43,9 +45,9 @@ module gravity_stage #(
   delay #(.WIDTH(16), .N(5)) of_mixer (.clk(clk), .en(move), .d(dither13), .q(dither18));
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     gravity_lane gravity (
-        .clk(clk), .rst(rst), .move(move), .cell_in(in_cells[lane*67+:67]), .first(~here | (came.y == 12'd0)),
-        .top(came.y == last.y), .live13(fill >= 24'd13), .dither13(dither13), .dither18(dither18), .hot(hot), .printed(printed),
-        .factor(factor), .wall_factor(wall_factor), .minimum(minimum), .hang(hang), .beta(beta),
-        .works(works[lane]), .cell_out(out_cells[lane*67+:67]));
+        .clk(clk), .rst(rst), .move(move), .cell_in(in_cells[lane*67+:67]), .in_run(in_runs[lane]),
+        .first(~here | (came.y == 12'd0)), .top(came.y == last.y), .live13(fill >= 24'd13), .dither13(dither13),
+        .dither18(dither18), .paper(paper), .hot(hot), .printed(printed), .factor(factor),
+        .wall_factor(wall_factor), .minimum(minimum), .hang(hang), .beta(beta), .works(works[lane]), .cell_out(out_cells[lane*67+:67]));
   end
 endmodule

@@ -3,6 +3,7 @@ module melt_lane (
     input  logic               clk,
     input  logic               move,
     input  voxmelt_pkg::cell_t cell_in,
+    input  logic               paper,          // under the viscous law nothing has energy
     input  logic [15:0]        freezes_below,  // 0: nothing freezes
     input  logic [15:0]        liquid_from,
     input  logic [15:0]        reheat,
@@ -28,7 +29,7 @@ module melt_lane (
       cell1.touches <= 1'b0;
       cell1.is_set <= cold & ~freezes;
       cell1.state <= freezes ? voxmelt_pkg::SOLID : melts ? voxmelt_pkg::LIQUID : cell_in.state;
-      cell1.energy <= freezes ? 16'd0 : melts ? cell_in.amount : cell_in.energy;
+      cell1.energy <= freezes ? 16'd0 : melts & paper ? cell_in.amount : cell_in.energy;
       lacks1 <= cell_in.amount - cell_in.energy;
       warms1 <= warms;
       cell_out <= cell4;

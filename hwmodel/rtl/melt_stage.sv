@@ -14,6 +14,7 @@ module melt_stage #(
     input  logic [31:0]         step,
     input  voxmelt_pkg::place_t last,
     input  logic [23:0]         lag,
+    input  logic                paper,          // the law
     input  logic [15:0]         freezes_below,
     input  logic [15:0]         liquid_from,
     input  logic [15:0]         reheat
@@ -31,7 +32,7 @@ module melt_stage #(
 
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     melt_lane melt (
-        .clk(clk), .move(move), .cell_in(in_cells[lane*67+:67]), .freezes_below(freezes_below),
+        .clk(clk), .move(move), .cell_in(in_cells[lane*67+:67]), .paper(paper), .freezes_below(freezes_below),
         .liquid_from(liquid_from), .reheat(reheat), .cell_out(out_cells[lane*67+:67]));
   end
 endmodule

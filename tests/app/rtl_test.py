@@ -26,7 +26,8 @@ class Rtl(unittest.TestCase):
         return voxmelt("verify", SCENES / f"{scene}.toml", "--steps", 2, "--set", f"hw.lanes={lanes}", *options)
 
     def test_every_stage_of_a_scene(self):
-        for scene, first, lanes in ("lesson_oven", 300, 4), ("lesson_spread", 100, 1), ("proving_ground", 40, 4):
+        for scene, first, lanes in ("lesson_oven", 300, 4), ("lesson_spread", 100, 1), ("proving_ground", 40, 4), (
+                "proving_ground_viscous", 40, 4):
             done = self.verify(scene, "--from", first, "--rtl", "all", lanes=lanes)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertRegex(done.stdout, r"\d{4,} cells compared .*: no difference; digest [0-9a-f]{16}")

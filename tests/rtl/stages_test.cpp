@@ -66,12 +66,16 @@ void agree(const Start& start, Configuration c, std::uint32_t steps, const std::
       seen.cells[std::string(name_of(kind))] += cells * steps;
 }
 
-Start world(std::uint64_t seed, int lanes) {
+Start world(std::uint64_t seed, int lanes, rule::Law law = rule::Law::paper) {
   worlds::Random random(seed * 31 + 5);
   state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
                    random.one_in(2) ? random.between(8, 14) : random.between(1, 5)};
   if (seed % 3 == 0) grid.x = (grid.x + lanes - 1) / lanes * lanes;  // the last block is full
-  Start start = hostile_start(seed, rule::Law::paper, grid);
+  Start start = hostile_start(seed, law, grid);
+  if (law == rule::Law::viscous) {  // the circuits know one material
+    start.parameters.materials.clear();
+    start.volume.material = {};
+  }
   start.parameters.flow.paper.use_table &= random.one_in(4);
   if (random.between(0, 3) != 0) start.parameters.flow.paper.reading = rule::EnergyReading::text;
   return start;
@@ -86,19 +90,20 @@ void heat_solids(Start& start) {
   });
 }
 
-void one_stage(StageKind kind, int worlds) {
+// The viscous law has most stages of the paper's, and sub-steps.
+void one_stage(StageKind kind, int worlds, rule::Law law = rule::Law::paper) {
   if (!rtl_has(kind)) GTEST_SKIP() << "this program was built without Verilator";
   Seen seen;
   const std::string name(name_of(kind));
   for (int seed = 0; seed < worlds && !testing::Test::HasFatalFailure(); ++seed) {
     const int lanes = rtl_lanes()[seed % rtl_lanes().size()];
-    Start start = world(static_cast<std::uint64_t>(seed), lanes);
+    Start start = world(static_cast<std::uint64_t>(seed), lanes, law);
     if (kind == StageKind::walls) {  // it is there without heat
       if (start.parameters.heat.enabled) continue;
       start.parameters.flow.fall.wall_factor = 8000;
     }
     if (kind == StageKind::fall)
-      start = pieces_start(static_cast<std::uint64_t>(seed), rule::Law::paper, start.volume.grid);
+      start = pieces_start(static_cast<std::uint64_t>(seed), law, start.volume.grid);
     if (kind == StageKind::source && !start.parameters.has_openings()) continue;
     if (kind == StageKind::exchange && seed / 2 % 2 == 0) heat_solids(start);
     if (kind == StageKind::gravity && seed / 2 % 2 == 0) {
@@ -106,7 +111,9 @@ void one_stage(StageKind kind, int worlds) {
       start.parameters.flow.paper.beta = seed / 4 % 2 == 0 ? 262144 : 40000;
     }
     const std::uint64_t stalls = seed % 3 == 0 ? 0 : static_cast<std::uint64_t>(seed);
-    agree(start, {lanes, 1 + seed / 3 % 2, 1 + seed % 3, stalls}, 5, {name}, seed + 1, seen);
+    Configuration c{lanes, 1 + seed / 3 % 2, 1 + seed % 3, stalls};
+    if (law == rule::Law::viscous) c.substeps = 1 + seed / 2 % 2;
+    agree(start, c, 5, {name}, seed + 1, seen);
   }
   EXPECT_GT(seen.worlds, 8);
   EXPECT_GT(seen.cells[name], 0);
@@ -133,14 +140,22 @@ void all_stages(int lanes, int worlds) {
 TEST(AllStagesInRtl, OneLane) { all_stages(1, 40); }
 TEST(AllStagesInRtl, FourLanes) { all_stages(4, 40); }
 
+// The mutants of a stage run all tests whose names begin with its own.
 TEST(StagesInRtl, Walls) { one_stage(StageKind::walls, 300); }
 TEST(StagesInRtl, Fall) { one_stage(StageKind::fall, 28); }
+TEST(StagesInRtl, FallViscous) { one_stage(StageKind::fall, 24, rule::Law::viscous); }
 TEST(StagesInRtl, Source) { one_stage(StageKind::source, 80); }
+TEST(StagesInRtl, SourceViscous) { one_stage(StageKind::source, 40, rule::Law::viscous); }
 TEST(StagesInRtl, Conduction) { one_stage(StageKind::conduction, 28); }
+TEST(StagesInRtl, ConductionViscous) { one_stage(StageKind::conduction, 28, rule::Law::viscous); }
 TEST(StagesInRtl, Convection) { one_stage(StageKind::convection, 36); }
+TEST(StagesInRtl, ConvectionViscous) { one_stage(StageKind::convection, 36, rule::Law::viscous); }
 TEST(StagesInRtl, Exchange) { one_stage(StageKind::exchange, 36); }
+TEST(StagesInRtl, ExchangeViscous) { one_stage(StageKind::exchange, 36, rule::Law::viscous); }
 TEST(StagesInRtl, Melt) { one_stage(StageKind::melt, 28); }
+TEST(StagesInRtl, MeltViscous) { one_stage(StageKind::melt, 28, rule::Law::viscous); }
 TEST(StagesInRtl, Gravity) { one_stage(StageKind::gravity, 40); }
+TEST(StagesInRtl, GravityViscous) { one_stage(StageKind::gravity, 40, rule::Law::viscous); }
 TEST(StagesInRtl, Pattern) { one_stage(StageKind::pattern, 40); }
 TEST(StagesInRtl, Apply) { one_stage(StageKind::apply, 40); }
 

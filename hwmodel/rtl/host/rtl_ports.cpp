@@ -23,45 +23,16 @@ std::uint64_t packed(std::int64_t first, std::int64_t second, std::int64_t third
 
 // The bits of each port, as the stages declare it.
 constexpr RtlPort kPorts[] = {
-    {"last", 36, 0},
-    {"lag", 24, 0},
-    {"east", 24, 0},
-    {"north", 24, 0},
-    {"south_east", 24, 0},
-    {"finished", 24, 0},
-    {"counts_axes", 1, 0},
-    {"finds_walls", 1, 0},
-    {"finds_touched", 1, 0},
-    {"melting_point", 16, 0},
-    {"latent_heat", 16, 0},
-    {"weight", 16, 0},
-    {"air_weights", 48, 0},
-    {"glow_weights", 48, 0},
-    {"sky", 16, 0},
-    {"freezes_below", 16, 0},
-    {"liquid_from", 16, 0},
-    {"reheat", 16, 0},
-    {"hot", 1, 0},
-    {"printed", 1, 0},
-    {"factor", 17, 0},
-    {"wall_factor", 17, 0},
-    {"minimum", 16, 0},
-    {"hang", 16, 0},
-    {"beta", 19, 0},
-    {"row_blocks", 32, 0},
-    {"plane_blocks", 32, 0},
-    {"eight", 1, 0},
-    {"support", 1, 0},
-    {"downhill", 1, 0},
-    {"gives_shares", 1, 0},
-    {"threshold", 16, 0},
-    {"margin", 16, 0},
-    {"slump", 16, 0},
-    {"margin_diagonal", 20, 0},
-    {"slump_diagonal", 20, 0},
-    {"alpha", 48, 0},
-    {"last_x", 12, 0},
-    {"open_border", 1, 0},
+    {"last", 36, 0},           {"lag", 24, 0},           {"east", 24, 0},        {"north", 24, 0},
+    {"south_east", 24, 0},     {"finished", 24, 0},      {"counts_axes", 1, 0},  {"finds_walls", 1, 0},
+    {"finds_touched", 1, 0},   {"melting_point", 16, 0}, {"latent_heat", 16, 0}, {"weight", 16, 0},
+    {"air_weights", 48, 0},    {"glow_weights", 48, 0},  {"sky", 16, 0},         {"freezes_below", 16, 0},
+    {"liquid_from", 16, 0},    {"reheat", 16, 0},        {"paper", 1, 0},        {"hot", 1, 0},
+    {"printed", 1, 0},         {"factor", 17, 0},        {"wall_factor", 17, 0}, {"minimum", 16, 0},
+    {"hang", 16, 0},           {"beta", 19, 0},          {"row_blocks", 32, 0},  {"plane_blocks", 32, 0},
+    {"eight", 1, 0},           {"support", 1, 0},        {"downhill", 1, 0},     {"gives_shares", 1, 0},
+    {"threshold", 16, 0},      {"margin", 16, 0},        {"slump", 16, 0},       {"margin_diagonal", 20, 0},
+    {"slump_diagonal", 20, 0}, {"alpha", 48, 0},         {"last_x", 12, 0},      {"open_border", 1, 0},
 };
 int bits_of(std::string_view name) {
   for (const RtlPort& port : kPorts)
@@ -142,8 +113,8 @@ class Ports {
     std::vector<std::uint32_t> words(((sizes_.vents + sizes_.drains) * kBits + 31) / 32);
     for (std::size_t i = 0; i < std::min(sizes_.vents, p_.vents.size()); ++i) {
       const rule::Vent& vent = p_.vents[i];
-      put_opening(words, kBits * i, vent.region, {vent.rate, vent.temperature, vent.energy}, vent.from,
-                  vent.until);
+      put_opening(words, kBits * i, vent.region,
+                  {vent.rate, vent.temperature, design_.paper() ? vent.energy : 0}, vent.from, vent.until);
     }
     for (std::size_t i = 0; i < std::min(sizes_.drains, p_.drains.size()); ++i) {
       const rule::Drain& drain = p_.drains[i];
@@ -207,14 +178,16 @@ class Ports {
 
   void add_melt() {
     add("lag", 5);
+    add("paper", design_.paper() ? 1 : 0);
     add("freezes_below", design_.freezes() ? p_.material.freezing_point : 0);
     add("liquid_from", p_.material.melting_point + p_.material.latent_heat);
-    add("reheat", p_.flow.paper.reheat);
+    add("reheat", design_.paper() ? p_.flow.paper.reheat : 0);
   }
 
   void add_gravity() {
     const rule::Fall& fall = p_.flow.fall;
     add("lag", 40);
+    add("paper", design_.paper() ? 1 : 0);
     add("hot", design_.hot() ? 1 : 0);
     add("printed", p_.flow.paper.reading == rule::EnergyReading::printed ? 1 : 0);
     add("factor", fall.factor);

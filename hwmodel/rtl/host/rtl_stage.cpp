@@ -72,6 +72,7 @@ RtlStage::RtlStage(std::unique_ptr<Stage> model, std::unique_ptr<RtlModel> rtl)
   for (const RtlPort& port : ports.values)
     if (port.name == "lag" && static_cast<std::int64_t>(port.value) != lag() + registers_of(kind(), design()))
       throw std::logic_error(std::string(name_of(kind())) + ": its circuit has another lag than its model");
+  takes_runs_ = rtl_->set("in_runs", 0);
   reset();
   for (const RtlPort& port : ports.values)
     if (!rtl_->set(port.name, port.value))
@@ -108,6 +109,11 @@ void RtlStage::take(const Cell* in) {
     put_bits(in_cells_, at + 32, 32, static_cast<std::uint32_t>(bits.low >> 32));
     put_bits(in_cells_, at + 64, 3, bits.high);
   }
+  if (!takes_runs_) return;
+  std::uint64_t runs = 0;
+  for (int lane = 0; lane < lanes(); ++lane)
+    runs |= static_cast<std::uint64_t>(std::int64_t{in[lane].in_run}) << lane;
+  rtl_->set("in_runs", runs);
 }
 
 void RtlStage::take_irradiance(const UInt<16>* irradiance) {

@@ -46,6 +46,7 @@ class RtlStage final : public Stage {
 
   std::unique_ptr<Stage> model_;
   std::unique_ptr<RtlModel> rtl_;
+  bool takes_runs_ = false;                                    // which cells are in a run
   std::uint32_t *in_cells_ = nullptr, *irradiance_ = nullptr;  // ports
   HeatFifo* feed_ = nullptr;
   FallFifo* falls_ = nullptr;

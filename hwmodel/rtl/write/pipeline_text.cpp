@@ -143,6 +143,7 @@ class Writer {
       add(",\n      .irradiance({}), .table_write(1'b0), .table_address(12'd0), .table_data(16'd0)",
           fed(design_) ? fmt::format("feed{}", t) : fmt::format("{}'d0", 16 * c_.lanes));
     if (kind == StageKind::fall) add(",\n      .falls(falls)");
+    if (kind == StageKind::gravity) add(",\n      .in_runs({}'d0)", c_.lanes);
     add(");\n\n");
   }
 

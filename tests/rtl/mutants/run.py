@@ -109,7 +109,7 @@ def verdict_of(bug, folder):
     subprocess.run(command, shell=True, cwd=BUILD, check=True, capture_output=True)
     test = "".join(part.capitalize() for part in bug["stage"].split("_"))
     try:
-        done = subprocess.run([program, f"--gtest_filter=StagesInRtl.{test}"], cwd=ROOT, capture_output=True, text=True,
+        done = subprocess.run([program, f"--gtest_filter=StagesInRtl.{test}*"], cwd=ROOT, capture_output=True, text=True,
                               timeout=300)
     except subprocess.TimeoutExpired:
         return "HANGS", False
