@@ -19,17 +19,19 @@ namespace {
 
 namespace explore = hwmodel::explore;
 
-// All scenes try the lanes that any of them does.
+// All scenes try the lanes, and the steps, that any of them does.
 std::vector<explore::Axes> axes_of(const std::vector<std::unique_ptr<ExploreScene>>& scenes,
                                    const ExploreCommand& command) {
-  std::set<int> lanes;
+  std::set<int> lanes, cascade;
   std::vector<explore::Axes> all;
   for (const auto& scene : scenes) {
     all.push_back(usual_axes(scene->question()));
     lanes.insert(all.back().lanes.begin(), all.back().lanes.end());
+    cascade.insert(all.back().cascade.begin(), all.back().cascade.end());
   }
   for (explore::Axes& axes : all) {
     axes.lanes.assign(lanes.begin(), lanes.end());
+    axes.cascade.assign(cascade.begin(), cascade.end());
     keep_only(axes, command.hw_sets);
   }
   return all;

@@ -83,6 +83,7 @@ void ExploreScene::begin() {
   question_.falls = hwmodel::cells_that_fall(question_.parameters, question_.first_step, start_).has_value();
   ahead_->begin_step();  // computes the irradiance of the step
   question_.irradiance = ahead_->irradiance();
+  question_.substeps = ahead_->substeps();
 }
 
 }  // namespace voxmelt::app

@@ -55,11 +55,11 @@ std::int64_t size_channels(const VerifiedStream& stream, const Common& common, c
   hwmodel::Configuration& c = preset.configuration;
   const state::Grid grid = stream.volume.grid;
   explore::TimedRun run{
-      stream.parameters, grid, c, stream.first_step, stream.steps, stop_if_interrupted, {}, {}, {}};
+      stream.parameters, grid, c, stream.first_step, stream.steps, stop_if_interrupted, {}, {}, {}, {}};
   std::optional<explore::SizingMemory> memory;
   std::optional<explore::Held> held;
   if (preset.caster.dram) memory = {*preset.caster.dram, preset.caster.clock_mhz};
-  if (memory || stream.parameters.pieces.fall) {
+  if (memory || hwmodel::host_sees_each_step(stream.parameters)) {
     held.emplace(run, hwmodel::design_of(stream.parameters, grid, c), stream.volume,
                  find_phased_implementation(common), stop_if_interrupted);
     held->give_to(run);

@@ -29,11 +29,11 @@ std::vector<int> lanes_worth_trying(int across) {
 Axes usual_axes(const Question& question) {
   Axes axes;
   axes.lanes = lanes_worth_trying(question.grid.x);
-  for (int t = 1; t <= kMostCascade; ++t) axes.cascade.push_back(t);
+  const int most_steps = host_sees_each_step(question.parameters) ? 1 : kMostCascade;  // of a pass
+  for (int t = 1; t <= most_steps; ++t) axes.cascade.push_back(t);
   axes.substeps = {1};
-  const auto& viscous = question.parameters.flow.viscous;
   if (question.parameters.flow.law == rule::Law::viscous)
-    for (int n = 2; n <= std::min<int>(viscous.substeps, kMostSubsteps); n *= 2) axes.substeps.push_back(n);
+    for (int n = 2; n <= std::min(question.substeps, kMostSubsteps); n *= 2) axes.substeps.push_back(n);
   axes.fifo_depth = {1, 2, 4, 8};
   axes.overlap = {0, 1};
   axes.coded = {0};
@@ -76,8 +76,11 @@ void keep_only(Axes& axes, const std::vector<std::string>& sets) {
     std::vector<int>* values = &(axes.*axis.values);
     if (!hw->has(key)) continue;
     const int value = hw->integer(key, 0, 1'000'000);
-    // Any clock up to the highest is allowed, and any number of lanes.
-    const int most = values == &axes.clock_mhz ? values->back() : values == &axes.lanes ? kMostLanes : 0;
+    // Any clock up to the highest is allowed, and any number of lanes and steps.
+    const int most = values == &axes.clock_mhz ? values->back()
+                     : values == &axes.lanes   ? kMostLanes
+                     : values == &axes.cascade ? kMostCascade
+                                               : 0;
     if (most > 0 ? value < 1 || value > most
                  : std::find(values->begin(), values->end(), value) == values->end()) {
       std::string known;

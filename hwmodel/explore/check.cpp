@@ -18,7 +18,8 @@ namespace {
 // Returns the cycles of the run while the memory always answers. All steps are taken to be like the first.
 std::int64_t cycles_without_waits(const Question& question, const Configuration& hw, std::uint32_t steps,
                                   const CheckInput& input) {
-  TimedRun run{question.parameters, question.grid, hw, question.first_step, steps, input.poll, {}, {}, {}};
+  TimedRun run{question.parameters, question.grid, hw, question.first_step, steps, input.poll, {}, {}, {},
+               {question.substeps}};
   std::optional<FallStream> falls;
   if (const auto cells = cells_that_fall(question.parameters, question.first_step, input.start))
     falls.emplace(*cells, design_of(question.parameters, question.grid, hw).shape);

@@ -2,6 +2,8 @@
 // run begins.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +21,13 @@ struct Content {
   std::vector<std::int64_t> irradiance_before{}, coded_before{};
 
   bool falls = false;  // does a piece fall in the first step?
+
+  // Sub-steps of the first steps, where the state decides on them. All that follow have as many as the last.
+  // If empty, a step has as many as the machine has copies.
+  std::vector<int> substeps{};
+  int substeps_of(std::int64_t step, int copies) const {
+    return substeps.empty() ? copies : substeps[std::min<std::size_t>(step, substeps.size() - 1)];
+  }
 
   std::vector<std::int32_t> lit_columns{};    // bits of irradiance in each column of the grid
   std::vector<std::int32_t> coded_columns{};  // bursts of the state in each column

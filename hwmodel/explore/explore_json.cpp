@@ -99,6 +99,7 @@ json contents_json(const std::vector<PartList>& parts) {
                       {"irradiance_bits", one.content->irradiance_bits},
                       {"lit_columns", one.content->lit_columns},
                       {"falls", one.content->falls},
+                      {"substeps", one.content->substeps_of(0, 1)},
                       {"coded_bits", one.content->coded_bits},
                       {"coded_columns", one.content->coded_columns}});
   }

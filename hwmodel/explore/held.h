@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "hwmodel/explore/content.h"
 #include "hwmodel/explore/timing.h"
@@ -30,6 +31,7 @@ class Held {
   std::map<std::uint32_t, IrradianceStream> irradiance_;
   std::map<std::uint32_t, StoredTokens> stored_;
   std::map<std::uint32_t, FallStream> falls_;  // steps in which something falls
+  std::vector<int> substeps_;                  // of each step
 };
 
 }  // namespace voxmelt::hwmodel::explore

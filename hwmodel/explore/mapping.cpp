@@ -1,6 +1,8 @@
 #include "hwmodel/explore/mapping.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <tuple>
 
 namespace voxmelt::hwmodel::explore {
@@ -39,12 +41,17 @@ std::vector<MemoryUse> sums_of(const std::vector<MemoryUse>& a, const std::vecto
   std::sort(all.begin(), all.end(), [](const MemoryUse& x, const MemoryUse& y) {
     return std::tie(x.lutram, x.parts, x.uram) < std::tie(y.lutram, y.parts, y.uram);
   });
+  // All that come before have no more LUTs. A stair tells the fewest URAMs that any of them has, with at most
+  // so many parts of BRAM: it falls as the parts grow.
+  std::map<std::int64_t, std::int64_t> stair;
   std::vector<MemoryUse> kept;
-  for (const MemoryUse& x : all)
-    if (std::none_of(kept.begin(), kept.end(), [&](const MemoryUse& y) {
-          return y.lutram <= x.lutram && y.parts <= x.parts && y.uram <= x.uram;
-        }))
-      kept.push_back(x);
+  for (const MemoryUse& x : all) {
+    auto above = stair.upper_bound(x.parts);
+    if (above != stair.begin() && std::prev(above)->second <= x.uram) continue;
+    while (above != stair.end() && above->second >= x.uram) above = stair.erase(above);
+    stair[x.parts] = x.uram;
+    kept.push_back(x);
+  }
   return kept;
 }
 

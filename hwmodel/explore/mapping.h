@@ -1,5 +1,6 @@
 // Every buffer is mapped to a kind of memory. Buffers of the same name have the same kind in every time step
-// of the cascade. All choices are weighed, and those that no other beats are kept.
+// of the cascade, and in every copy of a stage. All choices are weighed, and those that no other beats are
+// kept.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 
 #include "hwmodel/explore/operation_energy.h"
 #include "hwmodel/pipeline/model/random_block.h"
@@ -15,6 +16,11 @@ std::int64_t pieces(int width, int number) {
   return width <= number ? 1 : 1 + (width - number + number - 2) / (number - 1);
 }
 
+// Buffers of a few words are flip-flops.
+bool is_registers(const BufferCost& buffer, const Family& family) {
+  return buffer.words <= family.register_words;
+}
+
 void add_stage(PartList& list, const StagePart& part, const Family& family) {
   const StageCost& cost = family.stages.at(part.kind);
   for (int i = 0; i < part.units.multipliers && !cost.multipliers.empty(); ++i) {
@@ -22,10 +28,25 @@ void add_stage(PartList& list, const StagePart& part, const Family& family) {
     list.dsp += list.design.shape.lanes * dsps_of(cost.multipliers[at], family.product);
   }
   for (const BufferCost& buffer : part.buffers)
-    if (buffer.words <= family.register_words)
-      list.register_bits += buffer.total();
-    else
-      list.memories = sums_of(list.memories, ways_to_hold(buffer.words, buffer.lanes * buffer.bits, family));
+    if (is_registers(buffer, family)) list.register_bits += buffer.total();
+}
+
+// Adds the memories of a stage, of which there are so many copies.
+void add_memories(PartList& list, const StagePart& part, std::int64_t copies, const Family& family) {
+  for (const BufferCost& buffer : part.buffers) {
+    if (is_registers(buffer, family)) continue;
+    std::vector<MemoryUse> ways = ways_to_hold(buffer.words, buffer.lanes * buffer.bits, family);
+    for (MemoryUse& way : ways) way = copies * way;
+    list.memories = sums_of(list.memories, ways);
+  }
+}
+
+// Adds all memories. Copies of a stage are alike.
+void add_memories(PartList& list, const Family& family) {
+  std::map<StageKind, std::int64_t> copies;
+  for (const StagePart& part : list.stages) ++copies[part.kind];
+  for (const StagePart& part : list.stages)
+    if (const auto of_kind = copies.extract(part.kind)) add_memories(list, part, of_kind.mapped(), family);
 }
 
 }  // namespace
@@ -68,6 +89,7 @@ PartList part_list(const Design& design, const Family& family) {
         energy_of_token(part.kind, part.units, part.buffers, design.shape.lanes, family).all();
     add_stage(list, part, family);
   }
+  add_memories(list, family);
   return list;
 }
 

@@ -17,6 +17,7 @@ void predict_on_memory(VerifyReport& report, const Design& design, const Configu
   const Design uncut{design.parameters, {start.grid, configuration.lanes}, 1, design.registers};
   Content content = content_of(uncut, irradiance, &start);
   content.falls = cells_that_fall(design.parameters, report.first_step, start).has_value();
+  content.substeps = report.substeps;
   const std::vector<Train> trains =
       trains_of(design, configuration, report.first_step, report.steps, content);
   if (trains.size() != report.trains.size()) return;

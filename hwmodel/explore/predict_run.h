@@ -9,7 +9,7 @@ namespace voxmelt::hwmodel::explore {
 
 // Adds to the report how much the memory moves at most, and to each train the cycles that the closed form
 // predicts. The run is taken to move what `start`, the state at its beginning, and its irradiance hold (null:
-// dark). If the state decides on the sub-steps, no train has a prediction.
+// dark).
 void predict_on_memory(VerifyReport& report, const Design& design, const Configuration& configuration,
                        const memory::Choice& memory, const state::Volume& start,
                        const Irradiance* irradiance);

@@ -198,7 +198,7 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
   std::vector<Train> trains;
   for (std::int64_t done = 0; done < steps;) {
     Pass pass{.first = first_step + static_cast<std::uint32_t>(done)};
-    pass.substeps = substeps == 0 ? c.substeps : substeps;
+    pass.substeps = substeps == 0 ? content.substeps_of(done, c.substeps) : substeps;
     pass.count = std::min(pass.substeps, c.substeps);
     pass.falls = content.falls;
     if (!pass.ends()) {
@@ -223,10 +223,11 @@ std::vector<Train> lists_of(const Design& design, const Configuration& c, std::u
   return trains;
 }
 
-// Compares two trains in all but the number of their first step.
+// Compares two trains in all that a pass takes time by: neither in the number of the first step, nor in the
+// number of a sub-step that is not the first nor the last.
 bool alike(const Train& a, const Train& b) {
   const auto form = [](const Pass& pass) {
-    return std::tuple(pass.steps, pass.substep, pass.count, pass.substeps, pass.tile, pass.falls);
+    return std::tuple(pass.steps, pass.begins(), pass.ends(), pass.count, pass.tile, pass.falls);
   };
   return a.steps == b.steps && std::equal(a.list.begin(), a.list.end(), b.list.begin(), b.list.end(),
                                           [&](const Pass& x, const Pass& y) { return form(x) == form(y); });

@@ -20,8 +20,7 @@ struct Train {
   std::int64_t times = 1;  // number of such trains
 };
 
-// Every pass is taken to move what `content` says. If a scene counts its sub-steps from the state, every step
-// is taken to have as many as the machine has copies.
+// Every pass is taken to move what `content` says.
 std::vector<Train> trains_of(const Design& design, const Configuration& configuration,
                              std::uint32_t first_step, std::int64_t steps, const Content& content = {});
 // Returns the same, but trains that take the same time are one.

@@ -209,6 +209,7 @@ Swept sweep(const Question& question, const Axes& axes, const std::function<void
     const auto content = std::make_shared<Content>(
         content_of({question.parameters, {question.grid, lanes}, 1}, question.irradiance, question.volume));
     content->falls = question.falls;
+    content->substeps = {question.substeps};
     for (const int substeps : axes.substeps) {
       std::map<int, std::size_t> parts_of;  // keyed by the blocks of a tile
       for (const int cascade : axes.cascade) {

@@ -28,6 +28,7 @@ struct Question {
   const Irradiance* irradiance = nullptr;    // at the first step; null if dark
   bool falls = false;                        // does a piece fall in the first step?
   const state::Volume* volume = nullptr;     // before the first step; if null, hw.coded is not tried
+  int substeps = 1;                          // of the first step, under the viscous law
 };
 
 // Lists the values that are tried. A further axis is a list here and a row below, with its values in axes.cpp

@@ -95,7 +95,9 @@ Timing timing_of(const TimedRun& run, StreamMemory* memory) {
   Timing timing;
   Told told(run, pipeline.design());
   if (run.stored) pipeline.plant(&told);
-  for (Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps)) {
+  Content content;
+  content.substeps = run.substeps;
+  for (Train& train : trains_of(pipeline.design(), run.configuration, run.first_step, run.steps, content)) {
     const std::uint32_t first = train.list.front().first;
     Fed fed(run.irradiance ? run.irradiance(first) : &dark, run.falls ? run.falls(first) : nullptr);
     for (Pass& pass : train.list) pass.falls = fed.falls != nullptr;

@@ -28,6 +28,7 @@ struct TimedRun {
   // Returns which tokens are stored before this step, by column and height, with hw.coded on a memory. If
   // empty, none are.
   std::function<const StoredTokens*(std::uint32_t step)> stored;
+  std::vector<int> substeps{};  // as of Content
 };
 
 StoredTokens stored_tokens(const Design& design, const state::Volume& volume);

@@ -122,6 +122,7 @@ class Lockstep::Run {
     find_falling(step);
     Pass pass{.first = step, .substeps = software_.substeps(), .falls = falls_.has_value()};
     pass.count = std::min(pass.substeps, options_.configuration.substeps);
+    if (host_waits()) report_.substeps.push_back(pass.substeps);
     if (pass.ends() && !host_waits()) pass.steps = steps_of(step);
     if (!run_software(pass)) {
       report_.mismatch = std::move(software_mismatch_);

@@ -67,6 +67,7 @@ struct VerifyReport {
   std::vector<ChannelReport> channels;
   std::optional<IrradianceStream::Counts> irradiance;  // lies in memory at the end; none without radiation
   std::vector<TrainReport> trains;                     // trains that ended well
+  std::vector<int> substeps;                           // of each step, where the state decides on them
   std::optional<double> most_bytes_per_cycle{};        // rate of the DRAM, if a caller has given it
   std::string waves;                                   // VCD; empty: there are none
   Timeline timeline;                                   // empty, unless it was asked for

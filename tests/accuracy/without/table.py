@@ -73,7 +73,7 @@ def page(rules, results):
     needless = [r for r in ran if r not in found and results[r["name"]]["whole"]]
     by_gate = sum(results[r["name"]]["found"] == "gate" for r in found)
     commits = sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})
-    unfinished = len(rules) - len(found) - len(needless)
+    unfinished = sum(r["name"] not in results or not results[r["name"]]["whole"] for r in rules)
     sums = (f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs "
             f"{len(needless)}." + (f" For {unfinished} not all has run yet." if unfinished else "")
             + f" Commits of the runs: {', '.join(commits)}.")

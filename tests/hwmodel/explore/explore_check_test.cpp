@@ -1,6 +1,8 @@
 // A point that computes wrong bits is not verified. The file of sized channels describes the machine.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "hwmodel/explore/explore_report.h"
 #include "hwmodel/explore/size_fifos.h"
 #include "hwmodel/memory/sheet.h"
+#include "kernel/engine/scalar/substeps.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::hwmodel::explore {
@@ -39,6 +42,49 @@ TEST(ExploreCheck, APointThatFailsIsNotVerified) {
   const Checked bad = check(question, sweep(question, axes, {}), 0, 0, input);
   EXPECT_FALSE(bad.good);
   EXPECT_NE(bad.difference.find("width"), std::string::npos) << bad.difference;
+}
+
+// A pool at rest needs as many sub-steps in each step. The closed form takes the cycles of the simulation,
+// and the timed run those as well.
+TEST(ExploreCheck, SubstepsAreThoseThatTheStateAsksFor) {
+  Question question;
+  question.grid = {16, 24, 16};
+  question.parameters.flow.law = rule::Law::viscous;
+  question.parameters.flow.viscous.substeps = 0;
+  question.parameters.flow.viscous.substeps_max = 5;
+  question.parameters.flow.viscous.mobility = 190887435;  // kappa = 0.2
+  question.steps = 2;
+  question.device = load_device("zu7ev", {});
+  state::Volume start(question.grid);
+  for (int z = 0; z < 16; ++z)
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 16; ++x) {
+        start.liquid.set(x, y, z, y > 0);
+        start.inert.set(x, y, z, y == 0);
+        start.amount.row(y, z)[x] = rule::kOne;
+      }
+  question.substeps = scalar::count_substeps(question.parameters, start).substeps;
+  ASSERT_EQ(question.substeps, 5) << "as many as may be";
+  Axes axes;
+  axes.lanes = {4};
+  axes.cascade = axes.overlap = {1};
+  axes.substeps = {1, 2, 4};
+  axes.fifo_depth = {2};
+  axes.coded = {0};
+  axes.clock_mhz = {100};
+  const CheckInput input{start, worlds::implementation("reference"), {}, {}};
+  for (const char* memory : {"", "hbm2"}) {
+    if (*memory != 0) question.memory = load_memory(memory, "test");
+    const Swept swept = sweep(question, axes, {});
+    for (std::size_t at = 0; at < swept.points.size(); ++at) {
+      const Checked checked = check(question, swept, at, 2, input);
+      EXPECT_TRUE(checked.good) << checked.difference;
+      EXPECT_EQ(checked.predicted, checked.cycles) << "copies: " << swept.points[at].hw.substeps;
+      EXPECT_LT(std::abs(checked.error()), 0.05) << memory;
+      EXPECT_GT(checked.cycles, 2 * (5 / swept.points[at].hw.substeps) * 16 * 24 * 4)
+          << "passes of each step";
+    }
+  }
 }
 
 // A device with a memory is asked, and its best design comes with a simulation that somebody made up.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hwmodel/explore/check.h"
@@ -143,41 +144,42 @@ TEST(Explore, PassesOverlapWhereTheirStepsAreKnown) {
   EXPECT_EQ(trains(0), 6u);
 }
 
-TEST(Explore, MemoriesTakeTheShapeThatFits) {
-  const Family family = load_device("zu7ev", {}).family;
-  // 127 words of 268 bits take 8 halves of 512 x 36, or 4 URAMs of 72 bits. In LUTs they are 2 deep and 39
-  // wide at 8 each, and every bit needs a choice of two.
-  const std::vector<MemoryUse> shallow = ways_to_hold(127, 268, family);
-  ASSERT_EQ(shallow.size(), 3U);
-  EXPECT_EQ(shallow[0].lutram, 2 * 39 * 8 + 268);
-  EXPECT_EQ(shallow[1].parts, 8);
-  EXPECT_EQ(shallow[2].uram, 4);
-  // 3302 words of 268 bits take 7 x 8 halves of 512 x 36 (other shapes take 60 and more), or 4 URAMs.
-  const std::vector<MemoryUse> deep = ways_to_hold(3302, 268, family);
-  ASSERT_EQ(deep.size(), 2U);  // too deep for LUTs
-  EXPECT_EQ(deep[0].parts, 56);
-  EXPECT_EQ(deep[1].uram, 4);
-  // 2048 words of 8 bits take one half of 2048 x 9.
-  EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
-}
+// Two copies do five sub-steps in three passes, and two in one. The last number counts for all further steps.
+TEST(Explore, AStepHasTheSubstepsThatItsStateAsksFor) {
+  Design design{{}, {{8, 8, 8}, 4}, 2};
+  design.parameters.flow.law = rule::Law::viscous;
+  design.parameters.flow.viscous.substeps = 0;
+  Configuration c;
+  c.lanes = 4;
+  c.substeps = 2;
+  Content content;
+  content.substeps = {5, 2};
+  std::vector<std::pair<int, int>> passes;  // first sub-step and count
+  std::int64_t steps = 0;
+  for (const Train& train : trains_of(design, c, 0, 3, content)) {
+    ASSERT_EQ(train.list.size(), 1u);
+    passes.emplace_back(train.list[0].substep, train.list[0].count);
+    steps += train.steps;
+  }
+  EXPECT_EQ(passes, (std::vector<std::pair<int, int>>{{0, 2}, {2, 2}, {4, 1}, {0, 2}, {0, 2}}));
+  EXPECT_EQ(steps, 3);
 
-TEST(Explore, ProductsAreCutIntoPieces) {
-  const Widths ultrascale{27, 18}, ecp5{18, 18};
-  EXPECT_EQ(dsps_of({18, 17}, ultrascale), 1);
-  EXPECT_EQ(dsps_of({17, 25}, ultrascale), 1);  // either way round
-  EXPECT_EQ(dsps_of({25, 17}, ecp5), 2);
-  EXPECT_EQ(dsps_of({27, 27}, ultrascale), 2);
-  EXPECT_EQ(dsps_of({27, 27}, ecp5), 4);
-  EXPECT_EQ(dsps_of({35, 18}, ecp5), 2);  // 18 + 17 bits
-  EXPECT_EQ(dsps_of({36, 18}, ecp5), 3);
-}
-
-TEST(Explore, NoSumIsKeptThatAnotherBeats) {
-  const std::vector<MemoryUse> sums = sums_of({{10, 0, 0}, {0, 5, 0}}, {{10, 0, 0}, {0, 5, 0}, {0, 6, 0}});
-  std::vector<std::int64_t> seen;
-  seen.reserve(sums.size());
-  for (const MemoryUse& sum : sums) seen.push_back(1000 * sum.lutram + sum.parts);
-  EXPECT_EQ(seen, (std::vector<std::int64_t>{10, 10005, 20000}));
+  content.substeps = {10};  // passes between the first and the last, which has gravity, are of one kind
+  std::vector<std::pair<int, std::int64_t>> kinds;
+  for (const Train& train : kinds_of_trains(design, c, 0, 3, content))
+    kinds.emplace_back(train.list[0].count, train.times);
+  EXPECT_EQ(kinds, (std::vector<std::pair<int, std::int64_t>>{{2, 3}, {2, 9}, {2, 3}}));
+  c.tile = 20;  // two tiles, each a train of its own
+  c.overlap = false;
+  const Design cut = design_of(design.parameters, {32, 8, 8}, c);
+  ASSERT_EQ(cut.shape.tiles(), 2);
+  for (const Design& one : {design, cut}) {
+    std::int64_t cycles = 0, of_kinds = 0;
+    for (const Train& train : trains_of(one, c, 0, 3, content)) cycles += train.work.cycles;
+    for (const Train& train : kinds_of_trains(one, c, 0, 3, content))
+      of_kinds += train.times * train.work.cycles;
+    EXPECT_EQ(of_kinds, cycles);
+  }
 }
 
 }  // namespace
