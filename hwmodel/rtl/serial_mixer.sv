@@ -16,13 +16,11 @@ module serial_mixer (
   localparam [4:0] DONE = 5'd23;
   logic [4:0] count;
   logic [31:0] content;
-  logic [15:0] rest, low;
+  logic [15:0] rest, low, a, b, after;
   logic signed [34:0] part;
-  wire [15:0] after = amount + flow;
-  wire [15:0] a = count == 5'd0 ? amount : count == 5'd1 ? flow : after;
-  wire [15:0] b = count == 5'd0 ? heat : count == 5'd1 ? flow_heat : dither;
   product parts (.clk(clk), .en(1'b1), .a($signed({2'b0, a})), .b({1'b0, b}), .p(part));
 
+  wire [31:0] number = content + 32'(part[31:16]);
   wire [16:0] whole = {rest, low[15]};
   wire fits = whole >= {1'b0, after};
   wire [16:0] less = whole - {1'b0, after};
@@ -31,12 +29,14 @@ module serial_mixer (
   always_ff @(posedge clk) begin
     if (rst | move) count <= 5'd0;
     else if (works) count <= count + 5'd1;
-    if (count == 5'd3) content <= part[31:0];
-    if (count == 5'd4) content <= content + part[31:0];
-    if (count == 5'd5) content <= content + 32'(part[31:16]);
+    after <= amount + flow;
+    a <= count == 5'd0 ? amount : count == 5'd1 ? flow : after;
+    b <= count == 5'd0 ? heat : count == 5'd1 ? flow_heat : dither;
+    if (count == 5'd4) content <= part[31:0];
+    if (count == 5'd5) content <= content + part[31:0];
     if (works) begin
-      rest <= count == 5'd6 ? content[31:16] : fits ? less[15:0] : whole[15:0];
-      low <= count == 5'd6 ? content[15:0] : {low[14:0], fits};
+      rest <= count == 5'd6 ? number[31:16] : fits ? less[15:0] : whole[15:0];
+      low <= count == 5'd6 ? number[15:0] : {low[14:0], fits};
     end
   end
 endmodule

@@ -62,6 +62,16 @@ class Rtl(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
             self.assertIn("a column of 5 cells and a plane of 20 tokens are too short for its registers", done.stderr)
 
+    def test_a_plane_of_one_block(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = SMALL.replace("size = [12, 10, 12]", "size = [4, 18, 12]").replace("at = [6, 4, 6]", "at = [2, 4, 6]")
+            scene = write(folder, scene.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.01'))
+            done = voxmelt("verify", scene, "--steps", 1, "--set", "hw.lanes=4", "--rtl", "all")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn("spread in SystemVerilog: a plane has several blocks", done.stderr)
+            done = voxmelt("verify", scene, "--steps", 2, "--set", "hw.lanes=1", "--rtl", "all")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

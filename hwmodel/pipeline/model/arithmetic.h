@@ -54,6 +54,7 @@ class Reciprocal {
   std::int64_t times(std::int64_t number) const {
     return UInt<53>(UInt<26>(number) * std::int64_t{value_}) >> kShift;
   }
+  std::int64_t value() const { return value_; }
 
  private:
   static constexpr int kShift = 36;

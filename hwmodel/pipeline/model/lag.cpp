@@ -58,6 +58,10 @@ int registers_of(StageKind kind, const Design& design) {
       return 9;
     case apply:
       return 37;
+    case viscous_spread:
+      return 57;
+    case settle:  // 23 of the first scan, 7 of the second one, 39 of the third one
+      return 69;
     default:
       return 0;
   }

@@ -76,12 +76,14 @@ class SumScan {
     const SInt<29> excess = std::int64_t{sum_} - (last_ + 1) * kOne;  // at the face between the two cells
     SettleFlow up;
     SettleWord done = held_;
+    mixed_ = false;
     if (kind == SettleKind::inner) {
       // No cell may hold more than kAmountMax. Otherwise the excess at its upper face is beyond its range,
       // too, or there is no such face and the run is under pressure.
       ordered_ =
           ordered_ && excess >= -kOverMax && cell.amount + std::max<std::int64_t>(0, excess) <= kAmountMax;
       if (hot && ordered_) up = {std::max<std::int64_t>(0, excess), held_.heat};
+      mixed_ = up.amount > 0;
       done.sum = done.sum - up.amount;
     } else if (was_in_run) {
       done = record(excess, hot, dither);
@@ -92,6 +94,8 @@ class SumScan {
     add(cell, kind, hot);
     return done;
   }
+  // Tells if heat moved up into the cell that came last. That is a division.
+  bool mixed() const { return mixed_; }
 
  private:
   SettleKind kind_of(const Cell& cell, bool bottom, bool was_in_run) const {
@@ -141,6 +145,7 @@ class SumScan {
   UInt<12> last_;
   UInt<44> content_;
   UInt<1> ordered_;  // the run has kept its order so far
+  bool mixed_ = false;
 };
 
 // The second scan goes down, takes the record along to the first cell, and moves down what is missing below.
@@ -152,6 +157,7 @@ class RecordScan {
     const bool shut = (top || under_blocked_) && is_full(word.sum, word.last);
     const SettleKind lowest = shut ? SettleKind::shut : SettleKind::first;
     under_blocked_ = word.blocked();
+    mixed_ = false;
     switch (word.kind) {
       case SettleKind::top:
         record_ = word;
@@ -170,11 +176,14 @@ class RecordScan {
         return word;
     }
   }
+  // Tells if heat moved down into the cell that came last.
+  bool mixed() const { return mixed_; }
 
  private:
   // A cell of the run takes what comes from above, keeps its settled amount and gives the rest.
   UInt<16> lower(std::int64_t amount, std::int64_t heat, std::int64_t dither) {
     if (!record_.ordered) return record_.heat;
+    mixed_ = flow_.amount > 0;
     const UInt<16> own = flow_.into(amount, heat, dither);
     flow_ = {amount + flow_.amount - std::clamp<std::int64_t>(level_, 0, kOne), std::int64_t{own}};
     level_ = level_ + kOne;
@@ -185,6 +194,7 @@ class RecordScan {
   UInt<1> under_blocked_;  // the cell above is blocked
   SettleFlow flow_;
   SInt<29> level_;  // the run's amount, less ONE for each cell below
+  bool mixed_ = false;
 };
 
 // The third scan goes up. It gives every cell its amount and its heat, and cells in a run what they show. The

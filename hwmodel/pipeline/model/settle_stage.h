@@ -59,8 +59,7 @@ class Settle final : public Stage {
   void begin_step() override {
     // No two sub-steps round their mixtures alike.
     dithers_.next(UInt<16>::truncated(dither_of(moment().step) + dither_of(moment().substep)));
-    paces_.next((static_cast<std::int64_t>(flow_.viscous.mobility) + moment().substeps / 2) /
-                moment().substeps);
+    paces_.next(pace_of(flow_, moment().substeps));
     if (overlaps()) return;  // columns are whole
     downwards_.restart();
     upwards_.restart();
@@ -75,6 +74,7 @@ class Settle final : public Stage {
     for (const int each : each_lane(1)) {  // a cell's word is known when the next cell comes
       const std::size_t lane = each;
       words_[lane] = sums_[lane].next(in != nullptr ? in[lane] : border, bottom, hot_, dither_);
+      if (sums_[lane].mixed()) hold_in_register(4, 0);
     }
     faults_.summed(*this, in);
     if (filled() == 0) return;  // the scan looks one token ahead
@@ -84,6 +84,7 @@ class Settle final : public Stage {
     for (const int each : each_lane(turned_delay())) {
       const std::size_t lane = each;
       words_[lane] = records_[lane].next(turned_[lane], tokens_above() == 0, dither_);
+      if (records_[lane].mixed()) hold_in_register(29, 0);  // 23 of the first scan, and 6
     }
     faults_.lowered(*this);
 
@@ -116,7 +117,7 @@ class Settle final : public Stage {
   SolidBed solids_;
   std::int64_t height_;
   OfTwoPasses<UInt<16>> dithers_;
-  OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step; the host divides
+  OfTwoPasses<UInt<36>> paces_;  // the mobility parameter of one sub-step
   UInt<16> dither_;              // dither of the words in work
   UInt<36> pace_;
   std::vector<SumScan> sums_;

@@ -24,6 +24,12 @@ class SolidBed {
   static constexpr int kRiseBits = 10;
   static constexpr int kRowBits = 16 + 16 + 2 + 14;  // of a material: its melting heat, range, shift, scale
 
+  struct Melt {
+    UInt<16> range;  // how much heat it takes to melt
+    UInt<2> shift;   // brings the range to 32768 and above
+    UInt<14> scale;
+  };
+
   explicit SolidBed(const Design& design) : hot_(design.hot()), curves_(design.parameters) {
     const rule::Parameters& parameters = design.parameters;
     if (!design.of_materials()) add(parameters.material.latent_heat);
@@ -42,15 +48,11 @@ class SolidBed {
     const UInt<13> filled = std::min<std::int64_t>(amount, kMostFilled);
     return UInt<26>(filled * part) >> 15;
   }
+  // Returns the constants of the first material.
+  const Melt& melt() const { return melts_.front(); }
 
  private:
   static constexpr std::int64_t kMostFilled = 4095 + 2048;  // no bed offset is beyond 4095
-
-  struct Melt {
-    UInt<16> range;  // how much heat it takes to melt
-    UInt<2> shift;   // brings the range to 32768 and above
-    UInt<14> scale;
-  };
 
   void add(std::int64_t latent_heat) {
     const std::int64_t range = std::max(latent_heat, kOne);
@@ -102,6 +104,14 @@ inline std::int64_t settled_amount(std::int64_t sum, std::int64_t last, std::int
   const std::int64_t spare = over_of(sum, last) - kOverMax * (last - k);
   return std::clamp<std::int64_t>(sum - k * kOne, 0, kOne) + std::clamp<std::int64_t>(spare, 0, kOverMax);
 }
+
+// Returns the mobility parameter of one of so many sub-steps. The host divides.
+inline std::int64_t pace_of(const rule::Flow& flow, int substeps) {
+  return (static_cast<std::int64_t>(flow.viscous.mobility) + substeps / 2) / substeps;
+}
+
+// Returns which of n sub-steps number k is for the pairs of an axis.
+inline int turn_of(int k, int n, int axis) { return (k + axis * n / 4) % n; }
 
 // Holds what all cells of a run show. It is computed once, at the run's first cell.
 struct RunShow {

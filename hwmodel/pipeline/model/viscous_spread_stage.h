@@ -218,9 +218,8 @@ class ViscousSpread final : public Stage {
 
   // Returns the dither of sub-step k, in the layer with this dither. The lanes of a token share it.
   UInt<16> pair_dither(int axis, std::int64_t layer, int k) const {
-    const int n = moment().substeps;
     const UInt<16> offset = UInt<16>::truncated(step_dither_[axis] + layer);
-    return substep_.times(offset + 65536 * std::int64_t{(k + axis * n / 4) % n});
+    return substep_.times(offset + 65536 * std::int64_t{turn_of(k, moment().substeps, axis)});
   }
   static bool is_diagonal(int axis) { return axis >= 2; }
   std::int64_t dither_of_axis(int axis) const { return axis_dither_[axis]; }

@@ -31,6 +31,11 @@ class RtlModel {
   // Returns the words of a wide input, 32 bits each, the lowest first. Null: there is no such port.
   virtual std::uint32_t* wide(std::string_view port) = 0;
   virtual const std::uint32_t* out_cells() const = 0;
+  // Returns the port that takes what cells in a run show. Null: the stage does not ask.
+  virtual std::uint32_t* in_shows() = 0;
+  // Return what cells in a run show, and which cells these are. Null: the stage tells no such thing.
+  virtual const std::uint32_t* out_shows() const = 0;
+  virtual std::uint64_t out_runs() const = 0;
   virtual Outputs settle(const Inputs& inputs) = 0;  // outputs follow inputs
   virtual void clock() = 0;                          // one rising edge
 };

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "hwmodel/pipeline/model/lag.h"
 #include "hwmodel/pipeline/model/paper_flow.h"
 #include "hwmodel/pipeline/model/random_block.h"
+#include "hwmodel/pipeline/model/viscous_run.h"
+#include "hwmodel/rtl/host/port_bits.h"
 
 namespace voxmelt::hwmodel {
 namespace {
@@ -19,25 +20,6 @@ struct Line {
 
 std::uint64_t packed(std::int64_t first, std::int64_t second, std::int64_t third, int bits) {
   return static_cast<std::uint64_t>(first | second << bits | third << (2 * bits));
-}
-
-// The bits of each port, as the stages declare it.
-constexpr RtlPort kPorts[] = {
-    {"last", 36, 0},           {"lag", 24, 0},           {"east", 24, 0},        {"north", 24, 0},
-    {"south_east", 24, 0},     {"finished", 24, 0},      {"counts_axes", 1, 0},  {"finds_walls", 1, 0},
-    {"finds_touched", 1, 0},   {"melting_point", 16, 0}, {"latent_heat", 16, 0}, {"weight", 16, 0},
-    {"air_weights", 48, 0},    {"glow_weights", 48, 0},  {"sky", 16, 0},         {"freezes_below", 16, 0},
-    {"liquid_from", 16, 0},    {"reheat", 16, 0},        {"paper", 1, 0},        {"hot", 1, 0},
-    {"printed", 1, 0},         {"factor", 17, 0},        {"wall_factor", 17, 0}, {"minimum", 16, 0},
-    {"hang", 16, 0},           {"beta", 19, 0},          {"row_blocks", 32, 0},  {"plane_blocks", 32, 0},
-    {"eight", 1, 0},           {"support", 1, 0},        {"downhill", 1, 0},     {"gives_shares", 1, 0},
-    {"threshold", 16, 0},      {"margin", 16, 0},        {"slump", 16, 0},       {"margin_diagonal", 20, 0},
-    {"slump_diagonal", 20, 0}, {"alpha", 48, 0},         {"last_x", 12, 0},      {"open_border", 1, 0},
-};
-int bits_of(std::string_view name) {
-  for (const RtlPort& port : kPorts)
-    if (port.name == name) return port.bits;
-  throw std::logic_error("no stage has a port " + std::string(name));
 }
 
 class Ports {
@@ -57,7 +39,7 @@ class Ports {
 
  private:
   void add(std::string_view name, std::int64_t value) {
-    ports_.values.push_back({name, bits_of(name), static_cast<std::uint64_t>(value)});
+    ports_.values.push_back({name, port_bits(name), static_cast<std::uint64_t>(value)});
   }
   // Adds the length of a memory. None is shorter than two moves.
   std::int64_t add_memory(std::string_view name, std::int64_t delay) {
@@ -88,6 +70,8 @@ class Ports {
     if (kind == gravity) add_gravity();
     if (kind == pattern) add_pattern();
     if (kind == apply) add_apply();
+    if (kind == settle) add_settle();
+    if (kind == viscous_spread) add_spread();
   }
 
   void add_curve() {
@@ -239,6 +223,37 @@ class Ports {
     add_shares();
     add("hot", design_.hot() ? 1 : 0);
     add("alpha", static_cast<std::int64_t>(packed(law.alpha_liquid, law.alpha_solid, law.alpha_floor, 16)));
+  }
+
+  // A solid's bed follows from its amount and its heat.
+  void add_bed() {
+    const SolidBed bed(design_);
+    add("hot", design_.hot() ? 1 : 0);
+    add("liquid_from", p_.material.melting_point + p_.material.latent_heat);
+    add("melt_range", bed.melt().range);
+    add("melt_shift", bed.melt().shift);
+    add("melt_scale", bed.melt().scale);
+  }
+
+  void add_settle() {
+    const rule::Flow& flow = p_.flow;
+    add("lag", 2 * line_.column + 70);
+    add("thermal", flow.thermal_viscosity ? 1 : 0);
+    add("mobility_reference", flow.mobility_reference);
+    add("mobility_rate", flow.mobility_rate);
+    add("yield_stress", flow.viscous.yield);
+    add("stiffness", flow.viscous.stiffness);
+    add_bed();
+  }
+
+  void add_spread() {
+    if (line_.single) ports_.refusal = "a plane has several blocks of hw.lanes cells along x";
+    add("lag", line_.plane + line_.column + 57);
+    add_memory("south_east", line_.column - 2);
+    add_memory("north", line_.plane - line_.column);
+    add_memory("finished", line_.column + 23);
+    add("finds_walls", design_.needs_walls() ? 1 : 0);
+    add_bed();
   }
 
   const Design& design_;

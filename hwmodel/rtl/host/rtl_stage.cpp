@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hwmodel/pipeline/model/lag.h"
+#include "hwmodel/pipeline/model/viscous_run.h"
 #include "hwmodel/rtl/host/rtl_ports.h"
 
 namespace voxmelt::hwmodel {
@@ -72,6 +73,7 @@ RtlStage::RtlStage(std::unique_ptr<Stage> model, std::unique_ptr<RtlModel> rtl)
   for (const RtlPort& port : ports.values)
     if (port.name == "lag" && static_cast<std::int64_t>(port.value) != lag() + registers_of(kind(), design()))
       throw std::logic_error(std::string(name_of(kind())) + ": its circuit has another lag than its model");
+  is_viscous_ = rtl_->set("substep", 0);
   takes_runs_ = rtl_->set("in_runs", 0);
   reset();
   for (const RtlPort& port : ports.values)
@@ -114,6 +116,26 @@ void RtlStage::take(const Cell* in) {
   for (int lane = 0; lane < lanes(); ++lane)
     runs |= static_cast<std::uint64_t>(std::int64_t{in[lane].in_run}) << lane;
   rtl_->set("in_runs", runs);
+  if (rtl_->in_shows() != nullptr) take_shows(in);
+}
+
+// Settle tells spread so many bits of a cell's run: {shut, dead, limit, mobility, head}, the lowest bits
+// last.
+constexpr std::size_t kShowBits = 92;
+
+void RtlStage::take_shows(const Cell* in) {
+  for (int lane = 0; lane < lanes(); ++lane) {
+    const std::size_t at = kShowBits * lane;
+    const auto put = [&](std::size_t from, int bits, std::int64_t value) {
+      put_bits(rtl_->in_shows(), at + from, bits,
+               static_cast<std::uint32_t>(value) & ((std::uint32_t{1} << bits) - 1));
+    };
+    put(0, 30, in[lane].head);
+    put(30, 22, in[lane].mobility);
+    put(52, 14, in[lane].limit);
+    put(66, 25, in[lane].dead);
+    put(91, 1, in[lane].shut);
+  }
 }
 
 void RtlStage::take_irradiance(const UInt<16>* irradiance) {
@@ -141,6 +163,23 @@ void RtlStage::give(Cell* out) const {
     const std::uint64_t high = get_bits(rtl_->out_cells(), at + 32, 32);
     out[lane] =
         cell_of({high << 32 | get_bits(rtl_->out_cells(), at, 32), get_bits(rtl_->out_cells(), at + 64, 3)});
+  }
+  const std::uint64_t runs = rtl_->out_runs();
+  for (int lane = 0; lane < lanes(); ++lane) out[lane].in_run = runs >> lane & 1;
+  if (rtl_->out_shows() != nullptr) give_shows(out);
+}
+
+void RtlStage::give_shows(Cell* out) const {
+  for (int lane = 0; lane < lanes(); ++lane) {
+    const auto part = [&](std::size_t from, int bits) {
+      return std::int64_t{get_bits(rtl_->out_shows(), kShowBits * lane + from, bits)};
+    };
+    const std::int64_t head = part(0, 30);
+    out[lane].head = head >> 29 != 0 ? head - (std::int64_t{1} << 30) : head;
+    out[lane].mobility = part(30, 22);
+    out[lane].limit = part(52, 14);
+    out[lane].dead = part(66, 25);
+    out[lane].shut = part(91, 1);
   }
 }
 
@@ -172,6 +211,17 @@ bool RtlStage::hand_on() {
   return true;
 }
 
+// Tells a stage of the viscous law which sub-step the pass is whose first token comes next.
+void RtlStage::take_substep(const step::Moment& moment) {
+  rtl_->set("substep", static_cast<std::uint64_t>(moment.substep));
+  rtl_->set("pace", static_cast<std::uint64_t>(pace_of(design().parameters.flow, moment.substeps)));
+  rtl_->set("reciprocal", static_cast<std::uint64_t>(Reciprocal(moment.substeps).value()));
+  std::uint64_t turns = 0;
+  for (int axis = 0; axis < 4; ++axis)
+    turns |= static_cast<std::uint64_t>(turn_of(moment.substep, moment.substeps, axis)) << (10 * axis);
+  rtl_->set("turns", turns);
+}
+
 bool RtlStage::cycle() {
   if (done()) {
     ++cycles_.fill_drain;
@@ -186,8 +236,9 @@ bool RtlStage::cycle() {
     if (feed_ != nullptr) take_irradiance(feed_->oldest());
     if (falls_ != nullptr) take_falls(falls_->oldest());
   }
-  const RtlModel::Outputs outputs =
-      rtl_->settle({offers, out_->ready(), follows(), passes_[coming_ + (next ? 1 : 0)].moment.step});
+  const step::Moment& moment = passes_[coming_ + (next ? 1 : 0)].moment;
+  if (is_viscous_) take_substep(moment);
+  const RtlModel::Outputs outputs = rtl_->settle({offers, out_->ready(), follows(), moment.step});
   const bool takes = offers && outputs.in_ready;
   const bool gives = out_->ready() && outputs.out_valid;
   if (gives) give(out_->put());

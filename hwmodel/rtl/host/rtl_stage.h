@@ -39,14 +39,17 @@ class RtlStage final : public Stage {
   bool follows() const;
   void take(const Cell* in);
   void take_falls(const UInt<1>* falls);
+  void take_shows(const Cell* in);
+  void take_substep(const step::Moment& moment);
   void take_irradiance(const UInt<16>* irradiance);
   void give(Cell* out) const;
+  void give_shows(Cell* out) const;
   bool hand_on();
   void count_left();
 
   std::unique_ptr<Stage> model_;
   std::unique_ptr<RtlModel> rtl_;
-  bool takes_runs_ = false;                                    // which cells are in a run
+  bool is_viscous_ = false, takes_runs_ = false;               // is it told of sub-steps, and of runs?
   std::uint32_t *in_cells_ = nullptr, *irradiance_ = nullptr;  // ports
   HeatFifo* feed_ = nullptr;
   FallFifo* falls_ = nullptr;
