@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -18,6 +19,7 @@
 #include "kernel/run/io/export.h"
 #include "kernel/run/io/file_writer.h"
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/io/vti.h"
 
 namespace voxmelt::app {
 namespace {
@@ -26,10 +28,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStates = "states";
 constexpr std::string_view kTable = "csv";
+constexpr const char* kSeries = "states.pvd";
 
 bool has(const RunRecord& record, bool table) {
   return std::ranges::any_of(record.write,
                              [&](const std::string& name) { return (name == kTable) == table; });
+}
+
+// Tells if the states are VTK images, which a file of kSeries lists for ParaView.
+bool has_series(const RunRecord& record) {
+  return std::ranges::find(record.write, "vti") != record.write.end();
 }
 
 fs::path folder_of(const fs::path& folder, std::uint32_t step) {
@@ -56,6 +64,25 @@ std::uint32_t step_of(std::string_view row) {
   std::uint32_t step = UINT32_MAX;
   std::from_chars(row.data(), row.data() + row.size(), step);
   return step;
+}
+
+std::uint32_t step_of_folder(const std::string& name) {
+  return step_of(name.starts_with("step_") ? name.substr(5) : name);
+}
+
+// Lists the images of all states, with the step of each as its time.
+std::string series_of(const fs::path& folder) {
+  std::map<std::uint32_t, std::string> images;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / kStates)) {
+    const std::string name = entry.path().filename().string();
+    if (fs::exists(entry.path() / io::kVtiFile)) images[step_of_folder(name)] = name;
+  }
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+  for (const auto& [step, name] : images)
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}/{}\"/>\n", step, kStates, name,
+                        io::kVtiFile);
+  return text + "  </Collection>\n</VTKFile>\n";
 }
 
 }  // namespace
@@ -90,6 +117,7 @@ WrittenStates::WrittenStates(const RunRecord& record, fs::path folder, std::uint
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / kStates, none))
     states_ += entry.is_directory() ? 1 : 0;
+  settled_ = states_ == 0;
 }
 
 void WrittenStates::add(const run::Simulation& simulation) {
@@ -100,8 +128,8 @@ void WrittenStates::add(const run::Simulation& simulation) {
   if (step > last_step_) moment.seconds_per_step = passed.count() / (step - last_step_);
   if (has(record_, true)) {
     rows_ += (rows_.empty() ? io::csv_head() : "") + io::csv_row(moment);
-    settled_ = false;
   }
+  settled_ = false;
   if (has(record_, false)) {
     const fs::path folder = folder_of(folder_, step);
     make_folder(folder);
@@ -115,13 +143,15 @@ void WrittenStates::add(const run::Simulation& simulation) {
 }
 
 void WrittenStates::settle() {
-  if (!settled_) io::write_file(folder_ / io::kCsvFile, rows_);
+  if (!settled_ && !rows_.empty()) io::write_file(folder_ / io::kCsvFile, rows_);
+  if (!settled_ && has_series(record_) && states_ > 0) io::write_file(folder_ / kSeries, series_of(folder_));
   settled_ = true;
 }
 
 void WrittenStates::print_place(const std::string& place) const {
   if (!rows_.empty()) print("table          {}/{}\n", place, io::kCsvFile);
   if (states_ > 0) print("{} states      {}/{}/\n", states_, place, kStates);
+  if (states_ > 0 && has_series(record_)) print("for ParaView   {}/{}\n", place, kSeries);
 }
 
 void take_over_written(const fs::path& from, const fs::path& to, const RunRecord& record,
@@ -137,7 +167,7 @@ void take_over_written(const fs::path& from, const fs::path& to, const RunRecord
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(from / kStates, none)) {
     const std::string name = entry.path().filename().string();
-    const std::uint32_t written = step_of(name.starts_with("step_") ? name.substr(5) : name);
+    const std::uint32_t written = step_of_folder(name);
     if (written > step || !write_is_due(record, written)) continue;
     const fs::path folder = to / kStates / name;
     make_folder(folder);

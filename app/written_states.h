@@ -20,7 +20,7 @@ std::vector<std::string> formats_named(const std::string& list);
 std::string format_list();
 
 // The formats of fields have a folder for each state, states/step_00010. The format csv is one file, with a
-// row for each of them.
+// row for each of them. Where vti is among them, states.pvd lists the images with their times.
 class WrittenStates {
  public:
   // Goes on after step `begun_at`, with the rows that are in the folder already.
@@ -28,7 +28,7 @@ class WrittenStates {
 
   // Writes the state if it is due. It is called after each step, because it knows the time of a step, too.
   void add(const run::Simulation& simulation);
-  // Puts all rows into their file. Whoever goes on from here finds them there.
+  // Puts all rows and the list into their files. Whoever goes on from here finds them there.
   void settle();
   // Says where the states are, if there are any.
   void print_place(const std::string& place) const;

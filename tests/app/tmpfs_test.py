@@ -109,7 +109,7 @@ class Tmpfs(unittest.TestCase):
     def test_exports(self):
         for form in ("npy", "vti"):
             export = ["export", "scene.toml", "--format", form, "--set", "grid.size=[64, 40, 64]", "--out", "e", "--quiet"]
-            once = self.kilobytes_of(*export) + RESERVE
+            once = self.kilobytes_of(*export) + RESERVE - 8  # a packed image is small; two pages too few are never enough
             old = data(self.disk / "e")
             stopped = 0
             for place in range(PLACES):

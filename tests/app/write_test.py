@@ -5,9 +5,11 @@
 """
 import csv
 import io
+import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -16,8 +18,13 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, voxmelt, write
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import vti
+
 PYTHON = next((python for python in ("python3", "/usr/bin/python3") if shutil.which(python)
                and subprocess.run([python, "-c", "import numpy"], capture_output=True).returncode == 0), None)
+VTK = next((python for python in ("python3", "/usr/bin/python3") if shutil.which(python)
+            and subprocess.run([python, "-c", "import vtk"], capture_output=True).returncode == 0), None)
 SCENE = SMALL.replace("steps = 6", "steps = 40") + '[[vent]]\nat = [4, 8, 4]\nradius = 1.5\nrate = 0.2\nuntil = 12\n'
 FIELDS = {"solid", "liquid", "inert", "amount", "energy", "heat"}
 
@@ -83,6 +90,46 @@ class Write(unittest.TestCase):
                 for name in archive.namelist():
                     self.assertEqual(archive.read(name), (written / name).read_bytes())
 
+    def test_images_hold_the_arrays_and_a_list_their_times(self):
+        said = self.good("run", "scene.toml", "--write", "npy,vti", "--write-every", 20, "--steps", 30, "--out", "a")
+        self.assertIn("for ParaView   a/states.pvd\n", said)
+        listed = re.findall(r'<DataSet timestep="(\d+)" part="0" file="(.*?)"/>', (self.folder / "a/states.pvd").read_text())
+        self.assertEqual([int(step) for step, _ in listed], [0, 20, 30])
+        for step, name in listed:
+            image = (self.folder / "a" / name).read_bytes()
+            self.assertEqual(vti.time_of(image), float(step))
+            arrays = vti.arrays_of(image)
+            self.assertEqual(set(arrays), FIELDS)
+            for field, cells in arrays.items():
+                numbers = (self.folder / "a" / name).with_name(f"{field}.npy").read_bytes()
+                self.assertTrue(numbers.endswith(b"}\n" + cells) or numbers.endswith(b" \n" + cells), field)
+
+    def test_blocks_end_anywhere(self):
+        """Blocks of 2^20 bytes: one cell less, just one block, and one cell more; with and without a shorter last one."""
+        for size in ((1023, 5, 205), (1024, 16, 64), (1025, 31, 33)):
+            write(self.folder, f'[grid]\nsize = {list(size)}\n[[solid]]\nshape = "sphere"\nradius = 2\nat = [9, 2, 9]\n', "wide.toml")
+            for form in ("vti", "npy"):
+                self.good("export", "wide.toml", "--steps", 1, "--format", form, "--out", f"{form}{size[0]}")
+            for field, cells in vti.arrays_of((self.folder / f"vti{size[0]}/volume.vti").read_bytes()).items():
+                numbers = (self.folder / f"npy{size[0]}/{field}.npy").read_bytes()
+                self.assertTrue(numbers[-len(cells):] == cells, f"{field} of {size}")
+                self.assertEqual(len(cells), size[0] * size[1] * size[2] * (1 if field in ("solid", "liquid", "inert") else 2))
+
+    @unittest.skipUnless(VTK, "no VTK here: apt-get install python3-vtk9")
+    def test_vtk_reads_images(self):
+        self.good("export", "scene.toml", "--steps", 20, "--format", "vti", "--out", "e")
+        self.good("export", "scene.toml", "--steps", 20, "--out", "n")
+        text = ("import sys, numpy, vtk\nfrom vtk.util.numpy_support import vtk_to_numpy\n"
+                "r = vtk.vtkXMLImageDataReader(); r.SetFileName('e/volume.vti'); r.Update(); d = r.GetOutput()\n"
+                "print(d.GetFieldData().GetArray('TimeValue').GetValue(0), *d.GetDimensions())\n"
+                "c = d.GetCellData()\n"
+                "for i in range(c.GetNumberOfArrays()):\n"
+                "    n = c.GetArrayName(i)\n"
+                "    print(n, numpy.array_equal(vtk_to_numpy(c.GetArray(i)), numpy.load('n/' + n + '.npy').ravel()))\n")
+        said = subprocess.run([VTK, "-c", text], cwd=self.folder, capture_output=True, text=True, check=True).stdout.split("\n")
+        self.assertEqual(said[0], "20.0 13 11 13")
+        self.assertEqual(set(said[1:-1]), {f"{name} True" for name in FIELDS})
+
     @unittest.skipUnless(PYTHON, "no NumPy here: apt-get install python3-numpy")
     def test_numpy_reads_npz(self):
         self.good("export", "scene.toml", "--steps", 20, "--format", "npz", "--out", "e")
@@ -111,7 +158,7 @@ class Write(unittest.TestCase):
         self.assertEqual(child.wait(60), 4)
 
     def test_a_run_that_goes_on_writes_the_same(self):
-        options = ["--write", "csv,npz", "--write-every", "50", "--steps", "1930", "--frame-every", "0"]
+        options = ["--write", "csv,npz,vti", "--write-every", "50", "--steps", "1930", "--frame-every", "0"]
         self.good("run", "scene.toml", *options, "--out", "a")
         self.interrupt(*options, after=lambda folder: (folder / "states/step_00300").exists())
         held = len(rows_of(self.folder / "b/steps.csv"))
@@ -121,13 +168,17 @@ class Write(unittest.TestCase):
         rows = rows_of(self.folder / "a/steps.csv")
         self.assertEqual(len(rows), 40)
         self.assertEqual(without_times(rows), without_times(rows_of(self.folder / "b/steps.csv")))
-        for path in (self.folder / "a/states").rglob("*.npz"):
+        written = [*(self.folder / "a/states").rglob("*.npz"), *(self.folder / "a/states").rglob("*.vti")]
+        self.assertEqual(len(written), 80)
+        for path in [*written, self.folder / "a/states.pvd"]:
             self.assertEqual(path.read_bytes(), (self.folder / "b" / path.relative_to(self.folder / "a")).read_bytes())
 
         # The state of a last step that is last no more goes, as its frame does.
         self.good("run", "--resume", "b", "--steps", "+30")
         self.assertEqual([int(row["step"]) for row in rows_of(self.folder / "b/steps.csv")][-3:], [1900, 1950, 1960])
         self.assertEqual(sorted(path.name for path in (self.folder / "b/states").iterdir())[-2:], ["step_01950", "step_01960"])
+        listed = re.findall(r'timestep="(\d+)"', (self.folder / "b/states.pvd").read_text())
+        self.assertEqual(listed, [str(step) for step in [*range(0, 1951, 50), 1960]])
 
     def test_mistakes_are_said(self):
         for options, said in ((["--write", "tiff"], "--write tiff: error: 'tiff' is not one of npy, vti, nrrd, npz, ply, glb, stl, obj, csv"),

@@ -117,7 +117,7 @@ THIRD_PARTY = {
     "embree3/": ["render/visibility"],
     "toml++/": ["kernel/scene/text"],
     "png.h": ["render/image", "kernel/scene/shape/png_heights.cpp"],
-    "libdeflate": ["kernel/run/io/npz.cpp", "kernel/scene/voxel_file/unpack.cpp", "render/image"],
+    "libdeflate": ["kernel/run/io/npz.cpp", "kernel/run/io/vti.cpp", "kernel/scene/voxel_file/unpack.cpp", "render/image"],
     "zstd.h": ["kernel/run/checkpoint"],
     "xxhash.h": ["kernel/run/checkpoint"],
     "CLI/": ["app/command_line.cpp"],

@@ -2,51 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "kernel/run/io/columns.h"
 #include "kernel/run/io/csv.h"
 #include "kernel/run/io/file_writer.h"
 #include "kernel/run/io/npz.h"
 #include "kernel/run/io/surface_files.h"
+#include "kernel/run/io/vti.h"
 
 namespace voxmelt::io {
 namespace {
 
 void write_rows(FileWriter& file, const Column& column, state::Grid g, const Poll& poll) {
   for_each_piece(column, g, poll, [&](std::string_view rows) { file.write(rows); });
-}
-
-// Writes all fields as cell data of one VTK image: volume.vti (raw appended, little endian).
-void export_vti(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
-  const state::Volume& volume = moment.volume;
-  const state::Grid g = volume.grid;
-  const std::string extent =
-      "0 " + std::to_string(g.x) + " 0 " + std::to_string(g.y) + " 0 " + std::to_string(g.z);
-  const std::vector<Column> columns = columns_of(volume);
-  std::string arrays;
-  std::uint64_t offset = 0;
-  for (const Column& column : columns) {
-    arrays += std::string("        <DataArray type=\"") + column.vtk_type + "\" Name=\"" + column.name +
-              "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    offset += sizeof offset + g.cells() * column.bytes;
-  }
-  FileWriter file(folder / "volume.vti");
-  file.write(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" +
-      extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <Piece Extent=\"" + extent +
-      "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
-      "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_");
-  for (const Column& column : columns) {
-    const std::uint64_t size = g.cells() * column.bytes;
-    file.write({reinterpret_cast<const char*>(&size), sizeof size});
-    write_rows(file, column, g, poll);
-  }
-  file.write("\n  </AppendedData>\n</VTKFile>\n");
-  file.commit();
 }
 
 // Writes FIELD.nrrd, as it is in memory. NRRD names the fastest axis first.

@@ -17,6 +17,7 @@
 #include <tuple>
 
 #include "kernel/run/io/output_folder.h"
+#include "kernel/run/io/vti.h"
 #include "tests/kernel/worlds.h"
 
 namespace voxmelt::io {
@@ -80,18 +81,43 @@ TEST_F(Export, NpyIsCOrderZYXLittleEndian) {
   EXPECT_EQ(inert[inert.size() - 12 + 6], 1);
 }
 
-TEST_F(Export, VtiHoldsTheSameBytes) {
-  find_format("vti")->write(sample(), folder_, {});
+// The arrays themselves are read by tests/app/write_test.py, with zlib and with VTK.
+TEST_F(Export, VtiSaysTheSizesOfItsBlocks) {
+  const Volume volume = sample();
+  Moment moment(volume);
+  moment.step = 31;
+  find_format("vti")->write(moment, folder_, {});
   const std::string vti = read("volume.vti");
   EXPECT_NE(vti.find("WholeExtent=\"0 3 0 2 0 2\""), std::string::npos);
-  const std::size_t start = vti.find("encoding=\"raw\">\n_") + 17;
-  std::uint64_t size = 0;
-  std::memcpy(&size, vti.data() + start, 8);
-  EXPECT_EQ(size, 12u) << "first solid, one byte a cell";
-  EXPECT_EQ(vti[start + 8 + 5], 1);
-  std::memcpy(&size, vti.data() + start + 3 * 20, 8);
-  EXPECT_EQ(size, 24u) << "fourth amount";
-  EXPECT_EQ(vti.substr(start + 3 * 20 + 8 + 2, 2), "\x34\x12");
+  EXPECT_NE(vti.find("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">31<"), std::string::npos);
+  std::size_t at = vti.find("encoding=\"raw\">\n_") + 17;
+  for (const std::uint64_t bytes : {12u, 12u, 12u, 24u, 24u, 24u}) {  // three masks, three numbers
+    std::uint64_t header[4];  // blocks, their size, that of the last one, and when packed
+    ASSERT_LE(at + sizeof header, vti.size());
+    std::memcpy(header, vti.data() + at, sizeof header);
+    EXPECT_EQ(header[0], 1u);
+    EXPECT_EQ(header[1], 1u << 20);
+    EXPECT_EQ(header[2], bytes);
+    EXPECT_EQ(vti[at + sizeof header], '\x78') << "a zlib stream";
+    at += sizeof header + header[3];
+  }
+  EXPECT_EQ(vti.substr(at), "\n  </AppendedData>\n</VTKFile>\n");
+}
+
+// A state whose packed blocks are not kept is packed twice, for the same file.
+TEST_F(Export, VtiIsTheSameHoweverMuchIsKept) {
+  Volume volume(Grid{200, 100, 110});
+  for (int z = 0; z < 110; ++z)
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 200; ++x)
+        if ((x * y + z) % 7 == 0) put(volume, x, y, z, (x * 31 + y * 17 + z * 5) % 4096, 0, x);
+  write_vti(volume, folder_, {}, std::size_t{64} << 20);
+  const std::string kept = read("volume.vti");
+  EXPECT_LT(kept.size(), 6'000'000u);
+  for (const std::size_t most : {0, 300'000}) {
+    write_vti(volume, folder_, {}, most);
+    EXPECT_TRUE(read("volume.vti") == kept) << most;
+  }
 }
 
 // Each format writes into a folder that holds nothing else, so that no two formats can be one.
