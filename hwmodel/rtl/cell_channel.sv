@@ -8,6 +8,8 @@ module cell_channel #(
     parameter WALL = 0,
     parameter TOUCHES = 0,
     parameter SET = 0,
+    parameter RUN = 0,    // is the cell in a run?
+    parameter SHOWS = 0,  // and what it shows
     parameter DEPTH = 4
 ) (
     input  logic            clk,
@@ -15,13 +17,18 @@ module cell_channel #(
     input  logic            in_valid,
     output logic            in_ready,
     input  logic [P*67-1:0] in_cells,
+    input  logic [P-1:0]    in_runs,
+    input  logic [P*92-1:0] in_shows,
     output logic            out_valid,
     input  logic            out_ready,
-    output logic [P*67-1:0] out_cells
+    output logic [P*67-1:0] out_cells,
+    output logic [P-1:0]    out_runs,
+    output logic [P*92-1:0] out_shows
 );
   localparam CELL = HOT != 0 ? 50 : 34;
   localparam AT_PATTERN = CELL + 2 * AXES, AT_WALL = AT_PATTERN + 8 * PATTERN, AT_TOUCHES = AT_WALL + WALL,
-             AT_SET = AT_TOUCHES + TOUCHES, WORD = AT_SET + SET;
+             AT_SET = AT_TOUCHES + TOUCHES, AT_RUN = AT_SET + SET, AT_SHOWS = AT_RUN + RUN,
+             WORD = AT_SHOWS + 92 * SHOWS;
   logic [P*WORD-1:0] in_word, out_word;
   channel #(.WIDTH(P * WORD), .DEPTH(DEPTH)) tokens (
       .clk(clk), .rst(rst), .in_valid(in_valid), .in_ready(in_ready), .in_word(in_word),
@@ -61,6 +68,18 @@ module cell_channel #(
       assign out_cells[lane*67+66] = word[AT_SET];
     end else begin : not_set
       assign out_cells[lane*67+66] = 1'b0;
+    end
+    if (RUN != 0) begin : run
+      assign in_word[lane*WORD+AT_RUN] = in_runs[lane];
+      assign out_runs[lane] = word[AT_RUN];
+    end else begin : no_run
+      assign out_runs[lane] = 1'b0;
+    end
+    if (SHOWS != 0) begin : show
+      assign in_word[lane*WORD+AT_SHOWS+:92] = in_shows[lane*92+:92];
+      assign out_shows[lane*92+:92] = word[AT_SHOWS+:92];
+    end else begin : no_show
+      assign out_shows[lane*92+:92] = 92'd0;
     end
   end
 endmodule

@@ -56,7 +56,13 @@ class Small(Written):
 
     @unittest.skipUnless(shutil.which("yosys"), "skipped: `apt-get install yosys`")
     def test_yosys_reads_it_without_a_warning(self):
-        folder = self.written(write(self.folder, SMALL), "--set", "hw.lanes=2", "--set", "hw.cascade=1")
+        viscous = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.01\nsubsteps = 2')
+        for scene, substeps in (SMALL, 1), (viscous, 2):
+            self.check(self.written(write(self.folder, scene), "--set", "hw.lanes=2", "--set", "hw.cascade=1",
+                                    "--set", f"hw.substeps={substeps}"))
+            shutil.rmtree(self.folder / "elsewhere")
+
+    def check(self, folder):
         sources = ["voxmelt_pkg.sv"] + sorted(f.name for f in Path(folder).glob("*.sv")
                                               if f.name not in ("voxmelt_pkg.sv", "testbench.sv"))
         done = subprocess.run(["yosys", "-q", "-e", ".*", "-p", f"read_verilog -sv {' '.join(sources)}; "
@@ -68,7 +74,9 @@ class Small(Written):
 class Refused(Written):
     def test_what_cannot_be_written(self):
         for scene, options, words in (
-                ("lesson_tubes", (), "is not written in SystemVerilog"),
+                ("proving_ground_viscous", ("--set", "flow.viscous.substeps=1"), "edges is not written in SystemVerilog"),
+                ("lesson_tubes", (), "the number of sub-steps follows from the state; set it by flow.viscous.substeps"),
+                ("lesson_tubes", ("--set", "flow.viscous.substeps=2"), "a step has 2 sub-steps, and hw.substeps is 1"),
                 ("paper_literal", (), "apply: every direction has the same share"),
                 ("lesson_spread", ("--set", "hw.lanes=3"), "hw.lanes is 1, 2, 4, 8 or 16"),
                 ("cello", ("--set", "hw.cascade=2"), "where pieces fall, hw.cascade is 1")):
@@ -91,11 +99,15 @@ class Large(Written):
     def test_one_lane_without_heat(self):
         self.check("lesson_spread", 20, passes=2, lanes=1, cascade=3)
 
-    def check(self, scene, first, passes, lanes, cascade):
+    def test_sub_steps(self):
+        self.check("bunny_small_viscous", 500, 1, 4, 1, "--set", "flow.viscous.substeps=2", "--set", "hw.substeps=2",
+                   "--set", "pieces.fall=false")
+
+    def check(self, scene, first, passes, lanes, cascade, *options):
         path = SCENES / f"{scene}.toml"
         x, y, z = map(int, re.search(r"size = \[(\d+), (\d+), (\d+)\]", path.read_text()).groups())
         folder = self.written(path, "--from", first, "--passes", passes, "--set", f"hw.lanes={lanes}",
-                              "--set", f"hw.cascade={cascade}")
+                              "--set", f"hw.cascade={cascade}", *options)
         self.passes(folder, passes * -(-x // lanes) * y * z, "BLOCKS=1")
 
 

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
+#include "hwmodel/pipeline/model/arithmetic.h"
 #include "hwmodel/pipeline/model/stages.h"
+#include "hwmodel/pipeline/model/viscous_run.h"
 #include "hwmodel/rtl/host/rtl_model.h"
 #include "hwmodel/rtl/host/rtl_ports.h"
 
@@ -18,7 +19,8 @@ namespace {
 bool is_written(StageKind kind) {
   using enum StageKind;
   return kind == fall || kind == source || kind == conduction || kind == convection || kind == exchange ||
-         kind == melt || kind == walls || kind == gravity || kind == pattern || kind == apply;
+         kind == melt || kind == walls || kind == gravity || kind == pattern || kind == apply ||
+         kind == settle || kind == viscous_spread;
 }
 
 bool fed(const Design& design) { return design.hot() && design.parameters.heat.radiation; }
@@ -57,8 +59,14 @@ class Writer {
     add("    assign c0_in_cells[lane*67+:67] = 67'(in_cells[lane*{0}+:{0}]);\n  end\n\n",
         stored_bits(design_));
     int number = 0;
-    for (int t = 0; t < c_.cascade; ++t)
-      for (const StageKind kind : stages_of_step(design_)) stage(kind, t, ++number);
+    const std::size_t stages = stages_of_step(design_).size();
+    for (int t = 0; t < c_.cascade; ++t) {
+      copy_ = 0;
+      for (std::size_t i = 0; i < stages; ++i) {
+        stage(i, t, ++number);
+        copy_ += stages_of_step(design_)[i] == StageKind::viscous_spread ? 1 : 0;
+      }
+    }
     add("  assign out_valid = c{0}_valid;\n  assign c{0}_ready = out_ready;\n", number);
     add("  for (genvar lane = 0; lane < {0}; lane++) begin : pack\n", c_.lanes);
     add("    assign out_cells[lane*{0}+:{0}] = c{1}_cells[lane*67+:{0}];\n  end\nendmodule\n",
@@ -106,22 +114,29 @@ class Writer {
   // Declares a channel: NAME_in_* is its producer's side, NAME_* its consumer's.
   void channel(const std::string& name, const Wires& bands, int depth) {
     add("  logic {0}_in_valid, {0}_in_ready, {0}_valid, {0}_ready;\n  logic [{1}:0] {0}_in_cells, "
-        "{0}_cells;\n",
-        name, 67 * c_.lanes - 1);
+        "{0}_cells;\n  logic [{2}:0] {0}_in_runs, {0}_runs;\n  logic [{3}:0] {0}_in_shows, {0}_shows;\n",
+        name, 67 * c_.lanes - 1, c_.lanes - 1, 92 * c_.lanes - 1);
     add("  cell_channel #(.P({}), .HOT({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), .SET({}), "
-        ".DEPTH({})) {} (\n",
+        ".RUN({}), .SHOWS({}), .DEPTH({})) {} (\n",
         c_.lanes, hot_, int{bands.has(Wire::exposed_axes)}, int{bands.has(Wire::pattern)},
-        int{bands.has(Wire::beside_wall)}, int{bands.has(Wire::touches)}, int{bands.has(Wire::set)}, depth,
-        name);
+        int{bands.has(Wire::beside_wall)}, int{bands.has(Wire::touches)}, int{bands.has(Wire::set)},
+        int{bands.has(Wire::in_run)}, int{bands.has(Wire::head)}, depth, name);
     add("      .clk(clk), .rst(rst), .in_valid({0}_in_valid), .in_ready({0}_in_ready), "
-        ".in_cells({0}_in_cells),\n      .out_valid({0}_valid), .out_ready({0}_ready), "
-        ".out_cells({0}_cells));\n",
+        ".in_cells({0}_in_cells),\n      .in_runs({0}_in_runs), .in_shows({0}_in_shows), "
+        ".out_valid({0}_valid), .out_ready({0}_ready),\n      .out_cells({0}_cells), .out_runs({0}_runs), "
+        ".out_shows({0}_shows));\n",
         name);
+    if (!bands.has(Wire::in_run)) add("  assign {}_in_runs = {}'d0;\n", name, c_.lanes);
+    if (!bands.has(Wire::head)) add("  assign {}_in_shows = {}'d0;\n", name, 92 * c_.lanes);
   }
 
-  void stage(StageKind kind, int t, int number) {
+  // Writes the stage with this place in a time step, and the channel behind it.
+  void stage(std::size_t place, int t, int number) {
+    const StageKind kind = stages_of_step(design_)[place];
     const RtlPorts ports = rtl_ports(kind, design_, sizes_);
-    const std::string name = fmt::format("t{}_{}", t, name_of(kind));
+    const bool copied = kind == StageKind::settle || kind == StageKind::viscous_spread;
+    const std::string name =
+        fmt::format("t{}_{}{}", t, name_of(kind), copied ? std::to_string(copy_) : std::string());
     const int in = number - 1;
     add("  // Time step {}: {}.\n", t, name_of(kind));
     const std::string valid = side_input(kind, t, in, name);
@@ -130,7 +145,7 @@ class Writer {
         ".first_step(first_step "
         "+ 32'd{}), .takes({} & {}_ready), .step({}_step));\n",
         design_.shape.tokens(), c_.cascade, name, t, valid, name, name);
-    channel(fmt::format("c{}", number), make_stage(kind, design_)->side_bands(), depth_behind(kind, t));
+    channel(fmt::format("c{}", number), make_stage(kind, design_)->side_bands(), depth_behind(place, t));
     add("  {}_stage #(.P({}){}) {} (\n      .clk(clk), .rst(rst), .in_valid({}), .in_ready({}_ready), "
         ".in_cells(c{}_cells),\n      .out_valid(c{}_in_valid), .out_ready(c{}_in_ready), "
         ".out_cells(c{}_in_cells),\n      .follows({}), .step({}_step)",
@@ -143,8 +158,25 @@ class Writer {
       add(",\n      .irradiance({}), .table_write(1'b0), .table_address(12'd0), .table_data(16'd0)",
           fed(design_) ? fmt::format("feed{}", t) : fmt::format("{}'d0", 16 * c_.lanes));
     if (kind == StageKind::fall) add(",\n      .falls(falls)");
-    if (kind == StageKind::gravity) add(",\n      .in_runs({}'d0)", c_.lanes);
+    runs_and_substeps(kind, in, number);
     add(");\n\n");
+  }
+
+  // The viscous law has one pass for all sub-steps of a step.
+  void runs_and_substeps(StageKind kind, int in, int number) {
+    using enum StageKind;
+    const int n = design_.substeps;
+    if (kind == gravity || kind == viscous_spread) add(",\n      .in_runs(c{}_runs)", in);
+    if (kind == settle)
+      add(",\n      .out_runs(c{0}_in_runs), .out_shows(c{0}_in_shows), .substep(16'd{1}), .pace(36'd{2})",
+          number, copy_, pace_of(design_.parameters.flow, n));
+    if (kind != viscous_spread) return;
+    std::uint64_t turns = 0;
+    for (int axis = 0; axis < 4; ++axis)
+      turns |= static_cast<std::uint64_t>(turn_of(copy_, n, axis)) << (10 * axis);
+    add(",\n      .in_shows(c{}_shows), .out_runs(c{}_in_runs), .substep(16'd{}), .reciprocal(37'd{}), "
+        ".turns(40'd{})",
+        in, number, copy_, Reciprocal(n).value(), turns);
   }
 
   static std::int64_t lag_of(const RtlPorts& ports) {
@@ -172,23 +204,31 @@ class Writer {
   std::string parameters(StageKind kind, const RtlPorts& ports) const {
     using enum StageKind;
     std::string text;
-    if (kind == walls || kind == pattern || kind == apply || kind == fall)
+    if (kind == walls || kind == pattern || kind == apply || kind == fall || kind == settle ||
+        kind == viscous_spread)
       text += fmt::format(", .HOT({})", hot_);
     if (kind == source) text += fmt::format(", .VENTS({}), .DRAINS({})", sizes_.vents, sizes_.drains);
     if (kind == exchange) {
       text += fmt::format(", .HEIGHT({})", design_.shape.grid.y);
       if (design_.parameters.heat.air) text += ", .AIR(\"air.hex\")";
     }
+    if (kind == settle) {
+      const RunWidths widths(design_);
+      text += fmt::format(", .THERMAL({}), .FREEZES({}), .SUM({}), .LAST({}), .HEIGHT({})",
+                          int{hot_ != 0 && design_.parameters.flow.thermal_viscosity}, int{design_.freezes()},
+                          widths.sum, widths.count, design_.shape.grid.y);
+    }
+    if (kind == viscous_spread) text += fmt::format(", .BLOCKS({})", design_.shape.blocks());
     for (const RtlPort& port : ports.values)
       if (is_memory(port.name)) text += fmt::format(", .DEPTH_{}({})", upper(port.name), port.value - 1);
     return text;
   }
 
-  int depth_behind(StageKind kind, int t) const {
+  int depth_behind(std::size_t place, int t) const {
     const std::vector<StageKind> stages = stages_of_step(design_);
-    const auto here = std::find(stages.begin(), stages.end(), kind);
-    const bool last = here + 1 == stages.end();
-    const std::string_view next = !last                 ? name_of(here[1])
+    const StageKind kind = stages[place];
+    const bool last = place + 1 == stages.size();
+    const std::string_view next = !last                 ? name_of(stages[place + 1])
                                   : t + 1 == c_.cascade ? std::string_view("writer")
                                                         : name_of(stages.front());
     return c_.depth_of(step_name(t) + std::string(name_of(kind)) + " -> " + std::string(next));
@@ -198,6 +238,7 @@ class Writer {
   const Configuration& c_;
   RtlSizes sizes_;
   int hot_;
+  int copy_ = 0;  // which sub-step settle and spread are of
   std::string text_;
 };
 
@@ -215,6 +256,13 @@ std::string unwritten(const Design& design, const Configuration& configuration) 
   if (design.parameters.pieces.fall && configuration.cascade > 1) return "where pieces fall, hw.cascade is 1";
   if (configuration.lanes > 16 || (configuration.lanes & (configuration.lanes - 1)) != 0)
     return "hw.lanes is 1, 2, 4, 8 or 16";
+  const int substeps = design.parameters.flow.viscous.substeps;
+  if (!design.paper() && substeps != configuration.substeps)
+    return substeps == 0 ? std::string(
+                               "the number of sub-steps follows from the state; set it by "
+                               "flow.viscous.substeps and hw.substeps")
+                         : "a step has " + std::to_string(substeps) + " sub-steps, and hw.substeps is " +
+                               std::to_string(configuration.substeps);
   for (const StageKind kind : stages_of_step(design)) {
     if (!is_written(kind)) return std::string(name_of(kind)) + " is not written in SystemVerilog";
     if (const RtlPorts ports = rtl_ports(kind, design, sizes_of(design)); !ports.refusal.empty())
