@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   expect(back_from_checkpoint(volume, out / "marked.vxc") == volume, "the checkpoint has other cells");
 
   state::Volume other = volume;
-  other.mark[other.at(1, 2, 3)] ^= 128;
+  other.mark[other.at(1, 2, 3)] ^= 16;
   expect(!(other == volume), "a mark more or less, and the volumes are equal");
   expect(state::digest(other) != state::digest(volume), "a mark more or less, and the digests are equal");
   const auto difference = state::first_difference(volume, other);
