@@ -44,14 +44,6 @@ fs::path folder_of(const fs::path& folder, std::uint32_t step) {
   return folder / kStates / fmt::format("step_{:05}", step);
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw io::OutputError(folder.string() + ": error: cannot be made: " + error.message(),
-                          error == std::errc::no_space_on_device);
-}
-
 std::string text_of(const fs::path& file) {
   const std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
@@ -132,7 +124,7 @@ void WrittenStates::add(const run::Simulation& simulation) {
   settled_ = false;
   if (has(record_, false)) {
     const fs::path folder = folder_of(folder_, step);
-    make_folder(folder);
+    io::make_folder(folder);
     for (const std::string& name : record_.write)
       if (name != kTable) io::find_format(name)->write(moment, folder, {});
     io::flush_folder(folder);
@@ -170,7 +162,7 @@ void take_over_written(const fs::path& from, const fs::path& to, const RunRecord
     const std::uint32_t written = step_of_folder(name);
     if (written > step || !write_is_due(record, written)) continue;
     const fs::path folder = to / kStates / name;
-    make_folder(folder);
+    io::make_folder(folder);
     for (const fs::directory_entry& file : fs::directory_iterator(entry.path()))
       link_or_copy(file.path(), folder / file.path().filename());
     io::flush_folder(folder);

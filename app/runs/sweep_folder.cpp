@@ -31,14 +31,6 @@ std::string text_in(const fs::path& file) {
   return {std::istreambuf_iterator(stream), {}};
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw io::OutputError(folder.string() + ": error: cannot be made: " + error.message(),
-                          error == std::errc::no_space_on_device);
-}
-
 // Returns the words of [keep], as options of `voxmelt run`.
 std::vector<std::string> words_of(const Keep& keep) {
   std::vector<std::string> words;
@@ -87,11 +79,11 @@ void SweepFolder::expand(const scene::Scene& scene) {
   } else {
     if (fs::exists(place_, ignored) && !(fs::is_directory(place_, ignored) && fs::is_empty(place_, ignored)))
       throw UsageError(fmt::format("{}: error: is there already, and no sweep; --out says another", shown));
-    make_folder(place_);
+    io::make_folder(place_);
     io::write_file(place_ / scene_name_, scene.text);
     io::write_file(place_ / kHead, head);
   }
-  for (const char* name : {"runs", "logs"}) make_folder(place_ / name);
+  for (const char* name : {"runs", "logs"}) io::make_folder(place_ / name);
 }
 
 void SweepFolder::check_expanded() const {

@@ -6,7 +6,6 @@
 The PNG files are written here, by the specification, and by Pillow and GDAL where these are installed. What is no picture of
 heights gets exit code 2 and one line that names its place, soon and with little memory.
 """
-import os
 import shutil
 import struct
 import subprocess
@@ -16,11 +15,11 @@ import unittest
 import zlib
 from pathlib import Path
 
-from program import PROGRAM, voxmelt, write
+import bad_files
+from program import voxmelt, write
 
 WIDTH, HEIGHT = 11, 7
 HEIGHTS = [[(37 * x * x + 101 * y * y + 13 * x * y) % 5000 for x in range(WIDTH)] for y in range(HEIGHT)]
-SECONDS, BYTES = 2, 200 << 20
 GDAL = shutil.which("gdal_translate")
 PILLOW = next((python for python in (sys.executable, "/usr/bin/python3")
                if subprocess.run([python, "-c", "import PIL.PngImagePlugin"], capture_output=True).returncode == 0), None)
@@ -180,24 +179,7 @@ class Heights(unittest.TestCase):
                 self.assertEqual(self.digest(f"{i}.asc", None)[0], wanted, (options, (self.folder / f"{i}.asc").read_text()[:300]))
 
     def test_bad_files(self):
-        for name, (content, expected) in BAD.items():
-            with self.subTest(name):
-                (self.folder / name).write_bytes(content)
-                text = write(self.folder, scene(name))
-                before = set(self.folder.iterdir())
-                child = subprocess.Popen([PROGRAM, "run", text.name, "--steps", "1"], cwd=self.folder, stdout=subprocess.PIPE,
-                                         stderr=subprocess.PIPE, text=True)
-                out, error = child.stdout.read(), child.stderr.read()
-                _, status, used = os.wait4(child.pid, 0)
-                child.returncode = os.waitstatus_to_exitcode(status)
-                child.stdout.close()
-                child.stderr.close()
-                self.assertEqual((child.returncode, out), (2, ""), error)
-                self.assertRegex(error, rf"\Ascene\.toml:5:8: error: [^\n]*\b{name}\b[^\n]*\n\Z")
-                self.assertIn(expected, error)
-                self.assertLess(used.ru_maxrss << 10, BYTES)
-                self.assertLess(used.ru_utime + used.ru_stime, SECONDS)
-                self.assertEqual(set(self.folder.iterdir()), before)
+        bad_files.check(self, BAD, scene)
 
 
 unittest.main(argv=["heights_test"])

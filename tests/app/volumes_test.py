@@ -7,7 +7,6 @@ A body of boxes is made of shapes, and given as a volume that other programs wri
 same digest. What is no volume gets exit code 2 and one line that names its place, soon and with little memory.
 """
 import gzip
-import os
 import shutil
 import struct
 import subprocess
@@ -17,11 +16,11 @@ import unittest
 import zlib
 from pathlib import Path
 
+import bad_files
 from program import PROGRAM, voxmelt, write
 
 SIZE = (12, 10, 14)  # x, y, z
 BOXES = [((1, 2, 3), (5, 8, 11)), ((5, 2, 3), (11, 4, 6)), ((8, 4, 4), (9, 9, 5))]  # low, high
-SECONDS, BYTES = 2, 200 << 20
 PYTHONS = [sys.executable, "/usr/bin/python3"]
 UNU = shutil.which("teem-unu") or shutil.which("unu")
 NUMPY = next((python for python in PYTHONS if shutil.which(python)
@@ -423,24 +422,7 @@ class Volumes(unittest.TestCase):
         self.assertAlmostEqual(mass[0] / mass[1], 1, delta=0.01)
 
     def test_bad_files(self):
-        for name, (content, expected) in BAD.items():
-            with self.subTest(name):
-                (self.folder / name).write_bytes(content)
-                scene = write(self.folder, volume(name))
-                before = set(self.folder.iterdir())
-                child = subprocess.Popen([PROGRAM, "run", scene.name, "--steps", "1"], cwd=self.folder,
-                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                out, error = child.stdout.read(), child.stderr.read()
-                _, status, used = os.wait4(child.pid, 0)
-                child.returncode = os.waitstatus_to_exitcode(status)
-                child.stdout.close()
-                child.stderr.close()
-                self.assertEqual((child.returncode, out), (2, ""), error)
-                self.assertRegex(error, rf"\Ascene\.toml:5:8: error: [^\n]*\b{name}\b[^\n]*\n\Z")
-                self.assertIn(expected, error)
-                self.assertLess(used.ru_maxrss << 10, BYTES)
-                self.assertLess(used.ru_utime + used.ru_stime, SECONDS)
-                self.assertEqual(set(self.folder.iterdir()), before)
+        bad_files.check(self, BAD, volume)
 
 
 unittest.main(argv=["volumes_test"])

@@ -22,6 +22,12 @@ void fail_output(const fs::path& path, const std::string& what, int error) {
                     error == ENOSPC || error == EDQUOT);
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail_output(folder, "cannot be made", error.value());
+}
+
 std::string beside(const fs::path& place) { return place.string() + ".partial-XXXXXX"; }
 
 FileWriter::FileWriter(const fs::path& place) : place_(place), partial_(place.string()) {

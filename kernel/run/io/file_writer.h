@@ -25,6 +25,9 @@ class OutputError : public std::runtime_error {
 // Throws OutputError: "<path>: error: <what>: <the system's reason>".
 [[noreturn]] void fail_output(const std::filesystem::path& path, const std::string& what, int error);
 
+// Makes a folder and those above it, unless they are there.
+void make_folder(const std::filesystem::path& folder);
+
 // Names a new file or folder beside `place`, for its partial state, as a template of mkstemp and mkdtemp.
 std::string beside(const std::filesystem::path& place);
 
