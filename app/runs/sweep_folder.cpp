@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "app/message.h"
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 constexpr const char* kHead = "sweep.json";
+constexpr std::chrono::milliseconds kPatience{2000}, kBetweenAttempts{20};
 
 std::string text_in(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -93,7 +96,10 @@ void SweepFolder::check_expanded() const {
 }
 
 void SweepFolder::lock() {
-  lock_ = io::FileLock::attempt(place_);
+  // A sweep that was killed just now may have a child that holds the lock until its own program begins.
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while ((lock_ = io::FileLock::attempt(place_)).held_by_another() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(kBetweenAttempts);
   if (lock_.held_by_another())
     throw UsageError(fmt::format("{}: error: another sweep is at work there; --gather looks at what it has",
                                  seen_from_here(place_)));

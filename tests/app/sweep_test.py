@@ -4,6 +4,7 @@
   sweep_test.py PROGRAM
 """
 import csv
+import fcntl
 import json
 import math
 import os
@@ -12,6 +13,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -207,6 +209,19 @@ class Sweep(unittest.TestCase):
         (self.folder / "mine/letter.txt").write_text("dear")
         self.assertIn("no sweep", self.sweep(plan, "--out", "mine", code=2).stderr)
         self.assertIn("no sweep to gather", self.sweep(plan, "--out", "none", "--gather", code=2).stderr)
+
+    # The child of a sweep that was killed may have it until its own program begins.
+    def test_a_lock_that_goes_soon_is_waited_for(self):
+        plan = self.plan('scene = "scene.toml"\n[axes]\nheat.gamma = [0.05, 0.1]\n')
+        self.sweep(plan, "--jobs", 1)
+        held = os.open(self.folder / "out/plan", os.O_RDONLY)
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        goes = threading.Timer(0.5, os.close, [held])
+        goes.start()
+        begin = time.monotonic()
+        self.sweep(plan, "--jobs", 1)
+        self.assertGreater(time.monotonic() - begin, 0.4)
+        goes.join()
 
     def test_one_sweep_at_a_time_and_a_signal_ends_it(self):
         plan = self.plan('scene = "scene.toml"\n[axes]\nheat.gamma = [0.05, 0.1]\n[keep]\nsteps = 4000000\nframe_every = 0\n')
