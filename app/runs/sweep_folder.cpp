@@ -70,6 +70,16 @@ std::string SweepFolder::head_text(const scene::Scene& scene) const {
   return head.dump(2) + "\n";
 }
 
+bool SweepFolder::has_room(const scene::Scene& scene) const {
+  std::error_code none;
+  if (!fs::is_directory(place_, none)) return false;
+  return std::ranges::all_of(fs::directory_iterator(place_, none), [&](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    if (name == scene_name_) return text_in(entry.path()) == scene.text;
+    return name.starts_with(scene_name_ + ".partial-") || name.starts_with(std::string(kHead) + ".partial-");
+  });
+}
+
 void SweepFolder::expand(const scene::Scene& scene) {
   const std::string shown = seen_from_here(place_), head = head_text(scene);
   std::error_code ignored;
@@ -80,7 +90,7 @@ void SweepFolder::expand(const scene::Scene& scene) {
                       "where these go",
                       shown));
   } else {
-    if (fs::exists(place_, ignored) && !(fs::is_directory(place_, ignored) && fs::is_empty(place_, ignored)))
+    if (fs::exists(place_, ignored) && !has_room(scene))
       throw UsageError(fmt::format("{}: error: is there already, and no sweep; --out says another", shown));
     io::make_folder(place_);
     io::write_file(place_ / scene_name_, scene.text);

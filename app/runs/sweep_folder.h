@@ -37,6 +37,8 @@ class SweepFolder {
 
  private:
   std::string head_text(const scene::Scene& scene) const;
+  // Tells if the folder is empty, or holds no more than what a sweep writes first, which was killed then.
+  bool has_room(const scene::Scene& scene) const;
 
   std::filesystem::path place_;
   const Plan& plan_;

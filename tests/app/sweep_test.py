@@ -78,7 +78,8 @@ class Sweep(unittest.TestCase):
             process = subprocess.Popen([PROGRAM, "sweep", plan, "--jobs", "2", "--out", "killed"], cwd=self.folder,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
             time.sleep(chance.uniform(0.1, 0.35))
-            self.assertIsNone(process.poll(), "it was done before it was killed: the test would prove nothing")
+            if process.poll() is not None:
+                self.fail(f"it ended before it was killed, with {process.poll()}: {process.stderr.read()}")
             # A kill of the sweep alone, and of all that works for it.
             os.kill(process.pid, signal.SIGKILL) if kills % 2 else os.killpg(process.pid, signal.SIGKILL)
             process.wait()
@@ -209,6 +210,25 @@ class Sweep(unittest.TestCase):
         (self.folder / "mine/letter.txt").write_text("dear")
         self.assertIn("no sweep", self.sweep(plan, "--out", "mine", code=2).stderr)
         self.assertIn("no sweep to gather", self.sweep(plan, "--out", "none", "--gather", code=2).stderr)
+
+    # It was killed while it wrote its scene, or before its own file. What is of somebody else stays.
+    def test_a_folder_that_was_only_begun_is_gone_on_with(self):
+        plan = self.plan('scene = "scene.toml"\n[axes]\nheat.gamma = [0.05, 0.1]\n')
+        self.sweep(plan, "--out", "whole")
+        begun = self.folder / "begun"
+        begun.mkdir()
+        (begun / "scene.toml.partial-abc123").write_text("[gri")
+        self.sweep(plan, "--out", "begun", "--emit", "make")
+        shutil.rmtree(begun)
+        begun.mkdir()
+        shutil.copy(self.folder / "whole/scene.toml", begun)
+        self.sweep(plan, "--out", "begun")
+        self.assertEqual(without_times(begun / "table.csv"), without_times(self.folder / "whole/table.csv"))
+        shutil.rmtree(begun)
+        begun.mkdir()
+        (begun / "scene.toml").write_text("another")
+        self.assertIn("no sweep", self.sweep(plan, "--out", "begun", code=2).stderr)
+        self.assertEqual((begun / "scene.toml").read_text(), "another")
 
     # The child of a sweep that was killed may have it until its own program begins.
     def test_a_lock_that_goes_soon_is_waited_for(self):
