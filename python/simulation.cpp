@@ -73,6 +73,7 @@ std::uint32_t step(Handle& handle, std::int64_t count, const py::object& stop, c
 template <class Work>
 Frame drawn(const py::object& stop, Work&& work) {
   std::stop_source source;
+  if (is_set(stop)) source.request_stop();
   std::optional<py::error_already_set> interrupt;
   std::future<Frame> frame = std::async(std::launch::async, [&] { return work(source.get_token()); });
   while (released([&] { return frame.wait_for(kPatience); }) != std::future_status::ready) try {
