@@ -7,10 +7,11 @@
     tests/accuracy/without/run.py --longest 12  quick cases alone (12 s each); a later run goes on with the others
     tests/accuracy/without/run.py --docs docs/results/rules.md    writes the table there, too
 
-It wants a standing build: `cmake --build --preset release --target voxmelt-measure kernel_scalar_test kernel_rule_test`.
+It wants a standing build: `cmake --build --preset release --target voxmelt voxmelt-measure voxmelt_oracle kernel_scalar_test kernel_rule_test`.
 A rule is taken out of the reference by one exact replacement, which is built as an overlay (tests/overlay.py).
 First `voxmelt accuracy --quick` runs the rule's own cases, then all of plan.toml, then tests that hold a property,
-until a gate fails that the unchanged program passes. What was found is kept in results.json beside this file.
+until a gate fails that the unchanged program passes. What none of them needs must at least change a value: the last
+runs compare with states by hand and with the oracle. What was found is kept in results.json beside this file.
 """
 import argparse
 import hashlib
@@ -31,6 +32,7 @@ from overlay import ROOT, Build, Overlay, commit, misfit, run
 
 KEYS = {"name", "says", "file", "before", "after", "cases", "tests", "alone", "verdict"}
 MEASURE = "app/voxmelt-measure"
+PROGRAM, ORACLE = "app/voxmelt", "tests/oracle/oracle"
 RESULTS = HERE / "results.json"
 WHOLE_TESTS = "tests/kernel/kernel_scalar_test"  # none of its own sources holds a rule
 RULE_TESTS = "tests/kernel/kernel_rule_test"  # has no other code than its own sources
@@ -152,6 +154,27 @@ def failing_test(program, test, seconds):
     return "" if code == 0 else f"{name} {first[1] if first else said}"
 
 
+def differing_value(overlay, plan):
+    """The first run of plan.toml's `by_value` that fails without the rule, or nothing."""
+    for each in plan["by_value"]:
+        if each.startswith("kernel_"):
+            failed = failing_test(overlay.link(target_of(each)), each, plan["longest_test"])
+        else:
+            name, *words = each.split()
+            script = ROOT / "tests/oracle" / f"{name}.py"
+            code, text = run([sys.executable, str(script), str(overlay.link(PROGRAM)), str(overlay.build.folder / ORACLE), *words],
+                             plan["longest_test"])
+            failed = f"{name} {seed_or_state(text)}" if code else ""
+        if failed:
+            return failed
+    return ""
+
+
+def seed_or_state(text):
+    """Which random scene differs, or which state by hand: what the first line of a test's output begins with."""
+    return (text.strip().splitlines() or ["no word"])[0].split(":")[0][:100]
+
+
 def missed_rows(program, case, sound, folder):
     """Rows that fail without the rule and pass with it, each beside the other."""
     good, seconds = sound.rows(case)
@@ -185,7 +208,7 @@ def judge(build, rule, sound, plan, before, last, options):
     folder = options.out / "work"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    ran, missed, test, problem = list(before), [], "", ""
+    ran, missed, test, value, problem = list(before), [], "", "", ""
     cases, tests = runs_of(rule, plan, last)
     if options.longest:
         cases = [case for case in cases if case == last or sound.rows(case)[1] <= options.longest]
@@ -201,9 +224,11 @@ def judge(build, rule, sound, plan, before, last, options):
             ran.append(each)
             if missed or test:
                 break
+        else:
+            value = differing_value(overlay, plan)
     except RuntimeError as error:
         problem = str(error)[:300]
-    return {"found": "gate" if missed else "test" if test else "", "cells": table.cells(missed, test), "error": problem,
+    return {"found": "gate" if missed else "test" if test else "", "cells": table.cells(missed, test), "value": value, "error": problem,
             "ran": ran, "seconds": round(time.monotonic() - begin, 1)}
 
 

@@ -7,7 +7,8 @@ HEAD = """<!-- Written by tests/accuracy/without/run.py -->
 
 Each rule of sections 10 and 11 of [automaton.md](../automaton.md) was taken out of the reference.
 The table says which gate of `voxmelt accuracy` then fails, or which test of `kernel/` that holds a
-property. A test that compares with a value by hand is no reason for a rule, and none counts here.
+property. A test that compares with a value by hand is no reason for a rule, and none counts there.
+What has no other says which of those fails: a state by hand, or a random scene beside the oracle.
 
 Run it yourself: `python3 tests/accuracy/without/run.py`. The replacements lie beside it.
 """
@@ -52,7 +53,9 @@ def cells(missed, test):
 
 
 def verdict(result):
-    return "error: " + result["error"] if result["error"] else result["cells"].replace("|", "").strip()
+    if result["error"]:
+        return "error: " + result["error"]
+    return result["cells"].replace("|", "").strip() + (f"; a value: {result['value']}" if result.get("value") else "")
 
 
 def stored(rules, results):
@@ -74,16 +77,17 @@ def page(rules, results):
     by_gate = sum(results[r["name"]]["found"] == "gate" for r in found)
     commits = sorted({results[r["name"]]["commit"].removesuffix("-dirty") for r in ran})
     unfinished = sum(r["name"] not in results or not results[r["name"]]["whole"] for r in rules)
-    sums = (f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. No gate needs "
-            f"{len(needless)}." + (f" For {unfinished} not all has run yet." if unfinished else "")
+    by_value = sum(bool(results[r["name"]].get("value")) for r in ran if r not in found)
+    sums = (f"Of {len(rules)} rules a gate needs {by_gate}, and a test of a property alone {len(found) - by_gate}. Without {by_value} "
+            f"of the other {len(rules) - len(found)} a test by value fails." + (f" For {unfinished} not all has run yet." if unfinished else "")
             + f" Commits of the runs: {', '.join(commits)}.")
     lines = [HEAD, *textwrap.wrap(sums, 100)]
     for section in sorted({r["section"] for r in found}):
         lines += ["", f"## Section {section}", "", "| rule | what it says | without it: the gate that fails | error | gate | case or test |",
                   "|---|---|---|---|---|---|"]
         lines += [f"| {r['name']} | {r['says'].replace('|', '/')} | {results[r['name']]['cells']}|" for r in found if r["section"] == section]
-    head = ["", "| rule | what it says | what passes without it | what to do |", "|---|---|---|---|"]
-    line = lambda r: (f"| {r['name']} | {r['says'].replace('|', '/')} | {', '.join(map(short, results.get(r['name'], {}).get('ran', []))) or '-'} "
+    head = ["", "| rule | what it says | which value differs without it | what passes without it | what to do |", "|---|---|---|---|---|"]
+    line = lambda r: (f"| {r['name']} | {r['says'].replace('|', '/')} | {results.get(r['name'], {}).get('value') or '-'} | {', '.join(map(short, results.get(r['name'], {}).get('ran', []))) or '-'} "
                       f"| {r.get('verdict', '')} |")
     lines += ["", "## What no gate needs"] + head + list(map(line, needless))
     rest = [r for r in rules if r not in found and r not in needless]
