@@ -36,14 +36,25 @@ constexpr const char* kEvery = "all";  // value of --implementation
 
 struct BenchOptions {
   Common common;
-  std::vector<std::string> parts{"automaton", "picture"};
+  std::vector<std::string> parts;  // empty: what is usual
   std::vector<std::string> scenes;
   std::optional<std::string> from;  // a step, or a checkpoint
   std::string out;
   bool quick = false;
 
   bool wants(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
+  bool names_a_device() const {
+    return common.implementation == "gpu" || common.implementation.starts_with("gpu:");
+  }
 };
+
+// A device runs whole steps, so it has a part of its own.
+const step::Implementation* device_of(const BenchOptions& options) {
+  if (!options.wants("device")) return nullptr;
+  Common common = options.common;
+  if (!options.names_a_device()) common.implementation = "gpu";
+  return &find_implementation(common);
+}
 
 void note(const Common& common, const std::string& text) {
   if (!common.quiet) say(text);
@@ -53,7 +64,9 @@ measure::Plan plan_of(const BenchOptions& options) {
   measure::Plan plan;
   plan.quick = options.quick;
   if (options.quick) plan.rounds = {.fewest = 3, .seconds = 1};
-  const bool every = options.common.implementation == kEvery;
+  plan.device = device_of(options);
+  const bool alone = plan.device != nullptr && options.parts.size() == 1;  // processors are only beside it
+  const bool every = options.common.implementation == kEvery || (alone && options.names_a_device());
   if (every) {
     for (const auto& one : run::implementations().all())
       if (one.supported && one.name != "reference") plan.implementations.push_back(&one);
@@ -107,10 +120,11 @@ void write_findings(const BenchOptions& options, const measure::Findings& findin
   write_report(options.common, report);
   if (out == nullptr) return;
   io::write_file(out->partial() / "bench.json", report);
-  if (options.wants("automaton")) io::write_file(out->partial() / "bench.csv", measure::bench_csv(findings));
-  io::write_file(
-      out->partial() / "performance_tables.md",
-      measure::short_tables(findings) + measure::full_tables(findings) + measure::picture_tables(findings));
+  if (options.wants("automaton") || options.wants("device"))
+    io::write_file(out->partial() / "bench.csv", measure::bench_csv(findings));
+  io::write_file(out->partial() / "performance_tables.md",
+                 measure::short_tables(findings) + measure::full_tables(findings) +
+                     measure::picture_tables(findings) + measure::device_tables(findings));
   if (options.wants("automaton"))
     io::write_file(out->partial() / "roofline.svg", measure::roofline_svg(findings));
   out->commit();
@@ -121,6 +135,11 @@ void write_findings(const BenchOptions& options, const measure::Findings& findin
 void warn_of_load(double load, int own) {
   const std::string busy = measure::busy_text(load, own, measure::describe_machine().threads);
   if (!busy.empty()) say("warning: " + busy);
+}
+
+void print_on_device(measure::Suite& suite, const measure::Workload& workload) {
+  const measure::DeviceCase& one = suite.run_on_device(workload);
+  print_device_case(suite.device(), one);
 }
 
 int run_bench(BenchOptions options) {
@@ -134,6 +153,8 @@ int run_bench(BenchOptions options) {
   } else if (options.from) {
     from = steps_of(*options.from);
   }
+  if (options.parts.empty() && options.names_a_device()) options.parts = {"device"};
+  if (options.parts.empty()) options.parts = {"automaton", "picture"};
   const measure::Plan plan = plan_of(options);
   check_report_place(options.common, options.out);
   std::optional<io::OutputFolder> out;
@@ -145,7 +166,8 @@ int run_bench(BenchOptions options) {
                   : std::vector<scene::Scene>{};
   };
   const bool automaton = options.wants("automaton"), picture = options.wants("picture");
-  const auto scenes = scenes_of(automaton || picture, measure::usual_scenes(options.quick));
+  const bool device = plan.device != nullptr;
+  const auto scenes = scenes_of(automaton || picture || device, measure::usual_scenes(options.quick));
   const auto finer = options.wants("grids") && options.scenes.empty() ? finer_scenes(options)
                                                                       : scenes_of(options.wants("grids"), {});
   const auto films = scenes_of(options.wants("film"), film_scenes(options.quick));
@@ -167,8 +189,11 @@ int run_bench(BenchOptions options) {
     const measure::Workload workload = measure::scene_at(scene, step, threads, std::move(provider));
     if (automaton) suite.run_scene(workload, scene);
     if (picture) print_drawing(suite.run_drawing(workload, scene));
+    if (device) print_on_device(suite, workload);
   }
   if (automaton && options.scenes.empty()) suite.run_dense();
+  if (device && options.scenes.empty())
+    for (const measure::Workload& workload : suite.dense_on_device()) print_on_device(suite, workload);
   if (!finer.empty()) print_finer_grids(suite.run_finer_grids(finer, from.value_or(0)));
   for (const scene::Scene& scene : films) print_film(suite.run_film(scene));
 
@@ -186,9 +211,11 @@ void add_bench(CommandLine& program) {
   command
       .option("--parts", options->parts,
               "what to measure, with commas between: automaton, picture, grids (pictures of finer and\n"
-              "finer grids), film (a whole melt) (default: automaton,picture)")
+              "finer grids), film (a whole melt), device (whole steps on a device, its kernels, what goes to "
+              "and fro)\n"
+              "(default: automaton,picture, or device if --implementation names one)")
       .separated_by(',')
-      .one_of({"automaton", "picture", "grids", "film"});
+      .one_of({"automaton", "picture", "grids", "film", "device"});
   command.flag("--quick", options->quick, "small cases only: about half a minute");
   command
       .option("--scenes", options->scenes,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "app/interrupt.h"
 #include "app/print.h"
@@ -89,6 +90,26 @@ void print_finer_grids(const std::vector<measure::FinerGrid>& grids) {
             milliseconds(one.fast), milliseconds(one.normal),
             measure::or_dash(measure::growth_of_normal(grids, i, t)));
     }
+  done();
+}
+
+void print_device_case(const measure::DeviceMachine& machine, const measure::DeviceCase& one) {
+  print("{}  {} x {} x {} on {} ({}); checked against {}\n", one.workload, one.grid.x, one.grid.y, one.grid.z,
+        machine.implementation, machine.name, one.judge);
+  print("  a step {} ms, {} Mcells/s active; {} % of what it copies ({} GB/s), {} launches are {} %\n",
+        milliseconds(one.seconds), three_digits(static_cast<double>(one.active) / one.seconds / 1e6),
+        three_digits(one.percent_of_copy()), three_digits(machine.copy / 1e9), three_digits(one.launches),
+        three_digits(one.percent_of_launches()));
+  print("  {} with {} {} ms: {} times as long; in a run, with visibility, a step takes {} ms\n",
+        one.processor.implementation->name, measure::threads_text(one.processor.threads),
+        milliseconds(one.processor_seconds), three_digits(one.times_processor()), milliseconds(one.as_run));
+  for (const auto& [what, transfer] :
+       {std::pair{"state there", one.upload}, {"masks back", one.masks}, {"state back", one.download}})
+    print("  {:<14} {:>8} ms  {:>8} MB\n", what, milliseconds(transfer.seconds),
+          three_digits(static_cast<double>(transfer.bytes) / 1e6));
+  for (const measure::KernelTime& kernel : one.kernels)
+    print("  {:<14} {:>8} ms  in {} calls\n", kernel.name, milliseconds(kernel.seconds),
+          three_digits(kernel.calls));
   done();
 }
 

@@ -13,5 +13,6 @@ void print_workload(const measure::Workload& workload, const measure::Result& re
 void print_drawing(const measure::Drawing& drawing);
 void print_finer_grids(const std::vector<measure::FinerGrid>& grids);
 void print_film(const measure::MeltFilm& film);
+void print_device_case(const measure::DeviceMachine& machine, const measure::DeviceCase& one);
 
 }  // namespace voxmelt::app

@@ -240,6 +240,19 @@ const MeltFilm& Suite::run_film(const scene::Scene& scene) {
   return findings_.films.back();
 }
 
+DeviceBench& Suite::device_bench() {
+  if (!device_)
+    device_.emplace(*plan_.device, Candidate{plan_.implementations.back(), plan_.threads.back()},
+                    plan_.rounds);
+  return *device_;
+}
+
+const DeviceCase& Suite::run_on_device(const Workload& workload) {
+  findings_.device_cases.push_back(device_bench().run(workload));
+  findings_.device = device_bench().machine();
+  return findings_.device_cases.back();
+}
+
 Findings Suite::take() {
   findings_.machine.refresh_all();
   for (Case& one : findings_.cases) one.roof = roof_of_case(one);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/device_steps.h"
 #include "measure/drawing.h"
 #include "measure/finer_grids.h"
 #include "measure/machine.h"
@@ -92,14 +93,18 @@ struct Findings {
   std::vector<Drawing> drawings;
   std::vector<FinerGrid> finer_grids;
   std::vector<MeltFilm> films;
+  // These are the findings about a device.
+  std::optional<DeviceMachine> device;
+  std::vector<DeviceCase> device_cases;
 };
 
 struct Plan {
   bool quick = false;
   std::vector<const step::Implementation*> implementations;
-  std::vector<int> threads{1};  // ascending
-  std::vector<Drawer> drawers;  // the drawers of pictures
-  bool automaton = true;        // false: the machine is not measured, because nothing is held against it
+  std::vector<int> threads{1};                   // ascending
+  std::vector<Drawer> drawers;                   // the drawers of pictures
+  const step::Implementation* device = nullptr;  // that runs whole steps, or none
+  bool automaton = true;  // false: the machine is not measured, because nothing is held against it
   Rounds rounds;
   Rounds picture_rounds() const { return {rounds.fewest, rounds.seconds / 5}; }
 };
@@ -120,10 +125,16 @@ class Suite {
   const std::vector<FinerGrid>& run_finer_grids(const std::vector<scene::Scene>& scenes, std::uint32_t step);
   const MeltFilm& run_film(const scene::Scene& scene);
 
+  // Each of these is about plan.device, beside the last implementation with the most threads.
+  const DeviceCase& run_on_device(const Workload& workload);
+  std::vector<Workload> dense_on_device() { return device_bench().dense(plan_.quick); }
+  const DeviceMachine& device() { return device_bench().machine(); }
+
   // Measures the machine once more. Tables and report use the better of its rates, for all cases alike.
   Findings take();
 
  private:
+  DeviceBench& device_bench();
   void run_large(Workload large);  // one implementation, judged by another
   std::vector<Case> cases_of(const Workload& workload, const Result& result);
   std::optional<Roof> roof_of_case(const Case& one);
@@ -132,6 +143,7 @@ class Suite {
   Plan plan_;
   Tell tell_;
   Findings findings_;
+  std::optional<DeviceBench> device_;
 };
 
 }  // namespace voxmelt::measure

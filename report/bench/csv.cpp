@@ -20,6 +20,16 @@ std::string row_of(const Case& one) {
                             or_empty(one.ratio_to_baseline), or_empty(one.ratio_to_native));
 }
 
+// A step of a device has no phases, and no baseline.
+std::string row_of(const std::string& device, const DeviceCase& one) {
+  std::string text = fmt::format("step,{},{},1,{},{},{},{},", one.workload, device, one.cells, one.active,
+                                 one.rounds, one.seconds * 1e3);
+  text.append(step::kPhaseNames.size(), ',');
+  return text + fmt::format(",{},{},{},{},,\n", static_cast<double>(one.cells) / one.seconds,
+                            static_cast<double>(one.active) / one.seconds, one.bytes_per_cell,
+                            one.percent_of_copy());
+}
+
 }  // namespace
 
 std::string bench_csv(const Findings& findings) {
@@ -30,6 +40,7 @@ std::string bench_csv(const Findings& findings) {
       ",cells_per_second,active_cells_per_second,bytes_per_cell,percent_of_roof,ratio_to_baseline,"
       "ratio_to_native_baseline\n";
   for (const Case& one : findings.cases) text += row_of(one);
+  for (const DeviceCase& one : findings.device_cases) text += row_of(findings.device->implementation, one);
   return text;
 }
 

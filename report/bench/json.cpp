@@ -139,6 +139,53 @@ json film_json(const MeltFilm& film) {
           {"frames_per_second", film.frames_per_second()}};
 }
 
+// Writes times in milliseconds.
+json transfer_json(const Transfer& one) {
+  return {{"milliseconds", one.seconds * 1e3}, {"bytes", one.bytes}};
+}
+
+json device_case_json(const DeviceCase& one) {
+  json kernels = json::array();
+  for (const KernelTime& kernel : one.kernels)
+    kernels.push_back(
+        {{"name", kernel.name}, {"milliseconds", kernel.seconds * 1e3}, {"calls", kernel.calls}});
+  return {{"workload", one.workload},
+          {"checked_against", one.judge},
+          {"grid", grid_json(one.grid)},
+          {"cells", one.cells},
+          {"active_cells", one.active},
+          {"rounds", one.rounds},
+          {"milliseconds", one.seconds * 1e3},
+          {"milliseconds_in_a_run", one.as_run * 1e3},
+          {"bytes_per_cell", one.bytes_per_cell},
+          {"percent_of_copy", one.percent_of_copy()},
+          {"launches", one.launches},
+          {"percent_of_launches", one.percent_of_launches()},
+          {"kernels", kernels},
+          {"upload", transfer_json(one.upload)},
+          {"masks", transfer_json(one.masks)},
+          {"download", transfer_json(one.download)},
+          {"processor",
+           {{"implementation", one.processor.implementation->name},
+            {"threads", one.processor.threads},
+            {"milliseconds", one.processor_seconds * 1e3},
+            {"times_as_long", one.times_processor()}}}};
+}
+
+json device_json(const Findings& findings) {
+  if (!findings.device) return nullptr;
+  const DeviceMachine& device = *findings.device;
+  json cases = json::array();
+  for (const DeviceCase& one : findings.device_cases) cases.push_back(device_case_json(one));
+  return {{"implementation", device.implementation},
+          {"name", device.name},
+          {"driver", device.driver},
+          {"memory_bytes", device.memory},
+          {"copy_bytes_per_second", device.copy},
+          {"launch_seconds", device.launch},
+          {"cases", cases}};
+}
+
 }  // namespace
 
 std::string bench_json(const Findings& findings, const std::string& version) {
@@ -168,7 +215,8 @@ std::string bench_json(const Findings& findings, const std::string& version) {
                        {"scaling", scaling},
                        {"pictures", drawings},
                        {"finer_grids", grids_json(findings.finer_grids)},
-                       {"films", films}};
+                       {"films", films},
+                       {"device", device_json(findings)}};
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -17,6 +17,7 @@ std::string bench_csv(const Findings& findings);
 std::string short_tables(const Findings& findings);    // machine, scenes, dense, bounds, densebounds, picture
 std::string full_tables(const Findings& findings);     // memory, rates, flow, heat, scaling, roofs
 std::string picture_tables(const Findings& findings);  // drawing, drawings, grids, films
+std::string device_tables(const Findings& findings);   // device, devicesteps, transfers; empty without one
 
 // Draws the roofline plot of the widest instruction set on one thread: operations per byte across, operations
 // per second up.

@@ -3,6 +3,7 @@
 
 Where there is no device of OpenCL, only the refusals are tested, and the test ends with 77: skipped.
 """
+import csv
 import json
 import os
 import re
@@ -16,6 +17,7 @@ from pathlib import Path
 
 from program import PROGRAM, SMALL, voxmelt, write
 
+ROOT = Path(__file__).resolve().parents[2]
 NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent"}
 VISCOUS = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.02')
 
@@ -49,6 +51,7 @@ class Refusals(unittest.TestCase):
                          names=f"--implementation {name}: error: this machine has no device of OpenCL", **NO_DEVICES)
         result = voxmelt("digest", self.scene, "--implementation", "auto", env=with_environment(**NO_DEVICES))
         self.assertEqual(result.returncode, 0, "auto takes a processor")
+        self.refused("bench", "--parts", "device", code=2, names="error: this machine has no device of OpenCL", **NO_DEVICES)
 
     @unittest.skipUnless(devices(), "no device of OpenCL")
     def test_no_such_device(self):
@@ -57,7 +60,7 @@ class Refusals(unittest.TestCase):
 
     @unittest.skipUnless(devices(), "no device of OpenCL")
     def test_commands_that_look_at_phases(self):
-        for words in (["verify", self.scene], ["bench", "--quick"]):
+        for words in (["verify", self.scene], ["bench", "--quick", "--parts", "automaton"], ["bench", "--quick", "--parts", "device,picture"]):
             self.refused(*words, "--implementation", "gpu", code=2, names="a device runs whole steps")
 
     @unittest.skipUnless(devices(), "no device of OpenCL")
@@ -117,6 +120,61 @@ class Runs(unittest.TestCase):
         process.wait()
         self.run_to("--resume", "killed", "--implementation", "gpu")
         self.assertEqual(self.outcome("killed"), self.outcome("straight"))
+
+    def test_bench(self):
+        scene = write(self.folder, SMALL)
+        result = voxmelt("bench", "--quick", "--scenes", scene, "--from", "2", "--implementation", "gpu", "--threads", "1",
+                         "--out", "out", cwd=self.folder, timeout=600)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads((self.folder / "out/bench.json").read_text())
+        self.assertEqual((report["cases"], report["pictures"]), ([], []))
+        device = report["device"]
+        self.assertEqual(device["implementation"], "gpu:0")
+        self.assertGreater(device["copy_bytes_per_second"], 1e8)
+        self.assertTrue(0 < device["launch_seconds"] < 0.1)
+        case, = device["cases"]
+        self.assertEqual((case["workload"], case["checked_against"]), ("scene:scene/step:2", "reference"))
+        seconds = 1e-3 * case["milliseconds"]
+        copied = case["bytes_per_cell"] * case["active_cells"] / seconds
+        self.assertAlmostEqual(case["percent_of_copy"], 100 * copied / device["copy_bytes_per_second"])
+        self.assertAlmostEqual(case["percent_of_launches"], 100 * case["launches"] * device["launch_seconds"] / seconds)
+        self.assertAlmostEqual(case["processor"]["times_as_long"], case["processor"]["milliseconds"] / case["milliseconds"])
+        # Which kernels a step of the paper's law has, and how often.
+        kernels = {kernel["name"]: kernel["calls"] for kernel in case["kernels"]}
+        self.assertEqual({name: kernels.get(name) for name in ("list_bricks", "melt", "gravity", "find_patterns", "apply_patterns")},
+                         {"list_bricks": 2, "melt": 1, "gravity": 1, "find_patterns": 1, "apply_patterns": 1})
+        self.assertEqual(case["launches"], sum(kernels.values()))
+        self.assertEqual([k["name"] for k in sorted(case["kernels"], key=lambda k: -k["milliseconds"])],
+                         [k["name"] for k in case["kernels"]], "the longest is first")
+        # A byte a cell says what is solid and inert. Rows of words and a border are around the grid.
+        x, y, z = case["grid"]
+        row = (x + 32) // 32 * 32
+        cells = row * (y + 1) * (z + 2) + 2 * row + 32
+        self.assertEqual(case["masks"]["bytes"], cells)
+        self.assertGreater(case["upload"]["bytes"], case["download"]["bytes"] + cells)
+        for line in ("state there", "masks back", "state back", "gravity"):
+            self.assertRegex(result.stdout, rf"(?m)^  {line} +[0-9.]+ ms")
+        with open(self.folder / "out/bench.csv", newline="") as file:
+            written, = csv.DictReader(file)
+        self.assertEqual((written["subject"], written["implementation"], written["gravity_milliseconds"]), ("step", "gpu:0", ""))
+        self.assertAlmostEqual(float(written["milliseconds"]), case["milliseconds"])
+        self.assertAlmostEqual(float(written["percent_of_roof"]), case["percent_of_copy"])
+        self.page(self.folder / "out")
+
+    def page(self, out):
+        """The page of docs comes from what `bench` writes."""
+        stub = self.folder / "voxmelt"  # bench --implementation gpu --out FOLDER
+        stub.write_text(f'#!/bin/sh\ncp -r "{out}" "$5"\n')
+        stub.chmod(0o755)
+        result = subprocess.run([ROOT / "bench/write_gpu.sh", stub], capture_output=True, text=True,
+                                env=with_environment(WRITE_TO=str(self.folder / "docs")))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = (self.folder / "docs/results/gpu.md").read_text()
+        self.assertNotIn("<!-- table", page)
+        for heading in ("| device | driver |", "| workload | grid | ms a step |", "| workload | state there, ms |"):
+            self.assertIn(heading, page)
+        for block in re.findall(r"(?:^\|.*\n)+", page, re.M):
+            self.assertEqual(len({row.count("|") for row in block.splitlines()}), 1, block)
 
 
 if __name__ == "__main__":

@@ -82,9 +82,9 @@ ALLOWED = {
     "report/accuracy": ["accuracy", "accuracy/front", "report/svg"],
     "report/bench": ["measure"],
     "report/runs": ["report/svg"],
-    "bench": ["accuracy/picture", "kernel/engine/gpu", "measure", PIPELINE, PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
+    "bench": ["accuracy/picture", "measure", PIPELINE, PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
-    "measure": ["measure/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
+    "measure": ["kernel/engine/gpu", "measure/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
                 "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
     "measure/baseline": [PARAMETERS, STATE],
     # The judge sees states and scenes, never a rule.

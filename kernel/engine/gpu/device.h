@@ -39,13 +39,14 @@ enum class Kernel {
   spread_runs,
   begin_relaxing,
   relax,
-  put_light
+  put_light,
+  copy_words  // for measurements
 };
 inline constexpr const char* kKernelNames[] = {
     "list_bricks", "find_matter",    "vent",           "drain",     "border",
     "conduct",     "exchange",       "copy_heat",      "find_cold", "melt",
     "gravity",     "find_patterns",  "apply_patterns", "settle",    "count_substeps",
-    "spread_runs", "begin_relaxing", "relax",          "put_light"};
+    "spread_runs", "begin_relaxing", "relax",          "put_light", "copy_words"};
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 

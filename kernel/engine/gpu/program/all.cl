@@ -10,3 +10,4 @@
 #include "kernel/engine/gpu/program/settle.cl"
 #include "kernel/engine/gpu/program/viscous_spread.cl"
 #include "kernel/engine/gpu/program/relax.cl"
+#include "kernel/engine/gpu/program/copy.cl"

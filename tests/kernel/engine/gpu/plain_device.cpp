@@ -102,7 +102,7 @@ constexpr Call kCalls[] = {CALL(list_bricks),    CALL(find_matter), CALL(vent), 
                            CALL(border),         CALL(conduct),     CALL(exchange),       CALL(copy_heat),
                            CALL(find_cold),      CALL(melt),        CALL(gravity),        CALL(find_patterns),
                            CALL(apply_patterns), CALL(settle),      CALL(count_substeps), CALL(spread_runs),
-                           CALL(begin_relaxing), CALL(relax),       CALL(put_light)};
+                           CALL(begin_relaxing), CALL(relax),       CALL(put_light),      CALL(copy_words)};
 static_assert(std::size(kCalls) == std::size(kKernelNames));
 
 class PlainDevice final : public Device {
