@@ -10,6 +10,7 @@
 
 #include "app/beginning.h"
 #include "app/commands.h"
+#include "app/drawn_surface.h"
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/moment.h"
@@ -26,7 +27,7 @@ namespace {
 struct ExportOptions {
   Common common;
   std::uint32_t steps = 0;
-  std::string out, format{io::formats().front().name};
+  std::string out, format{io::formats().front().name}, surface;
 };
 
 // The keys of the scene, after --set. In the format npy the state beside it is its start.
@@ -38,6 +39,7 @@ std::string scene_toml(const scene::Scene& scene, const std::string& format, std
 }
 
 int run_export(const ExportOptions& options) {
+  surface_named(options.surface, {options.format});
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
   check_report_place(options.common, options.out);
@@ -54,7 +56,11 @@ int run_export(const ExportOptions& options) {
   warn_of_limit(scene, options.common, simulation);
 
   const state::Volume& volume = simulation.volume();
-  io::find_format(options.format)->write(moment_of(simulation), out.partial(), stop_if_interrupted);
+  DrawnSurface surface;
+  io::Moment moment = moment_of(simulation);
+  if (io::find_format(options.format)->of_surface && options.surface != "cells")
+    moment.surface = surface.of(volume, scene, thread_count(options.common));
+  io::find_format(options.format)->write(moment, out.partial(), stop_if_interrupted);
   io::write_file(out.partial() / "parameters.json",
                  io::parameters_json(simulation.parameters(), volume.grid, simulation.step_number()));
   io::write_file(out.partial() / "fields.json", io::fields_json(volume));
@@ -84,6 +90,7 @@ void add_export(CommandLine& program) {
     help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", format.name, format.description);
   }
   command.option("--format", options->format, help).one_of(names).shows_default();
+  add_surface(command, options->surface);
   add_common(command, options->common);
   add_visibility(command, options->common);
   command.runs([options] { return run_export(*options); });

@@ -51,6 +51,7 @@ struct RunOptions {
   std::optional<std::string> film;
   std::optional<std::string> checkpoint_every, wall_clock;
   std::string write;  // names of formats, separated by commas
+  std::string surface;
   std::optional<std::uint32_t> write_every;
   std::string journal;  // file; empty for none
   std::string resume;   // folder; empty for a run from the scene's beginning
@@ -142,6 +143,7 @@ PreparedRun prepare(const RunOptions& options) {
   if (options.film) record.film = film_named(*options.film);
   record.write = formats_named(options.write);
   record.write_every = options.write_every.value_or(record.frame_every);
+  record.surface = surface_named(options.surface, record.write);
   if (options.write_every && record.write.empty())
     throw UsageError(
         fmt::format("--write-every {}: error: --write says what is written", *options.write_every));
@@ -260,6 +262,7 @@ void add_run(CommandLine& program) {
   begins(command.option(
       "--write", options->write,
       "write states, too, in these formats: " + format_list() + "; more than one as in csv,npz"));
+  begins(add_surface(command, options->surface));
   begins(command.option("--write-every", options->write_every,
                         "steps between states (default: between frames); 0: the first and the last only"));
   command.option("--wall-clock", options->wall_clock,

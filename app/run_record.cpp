@@ -60,6 +60,10 @@ void read_write(const json& object, RunRecord& record, const std::filesystem::pa
   for (const std::string& name : record.write)
     if (io::find_format(name) == nullptr)
       checkpoint::fail(file, "its head: command.write is none of this program's formats");
+  if (!object.contains("surface")) return;
+  record.surface = object.at("surface").get<std::string>();
+  if (std::ranges::find(kSurfaces, record.surface) == kSurfaces.end())
+    checkpoint::fail(file, "its head: command.surface is none of this program's");
 }
 
 }  // namespace
@@ -123,6 +127,7 @@ std::string json_of(const RunRecord& record) {
   if (!record.write.empty()) {
     result["write"] = record.write;
     result["write_every"] = record.write_every;
+    if (!record.surface.empty()) result["surface"] = record.surface;
   }
   if (record.film != "auto") result["film"] = record.film;
   if (!record.left_out.empty()) result["left_out"] = record.left_out;

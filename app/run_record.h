@@ -21,6 +21,9 @@ inline constexpr int kMostFramesPerSecond = 240;
 // A run makes this beside its report, by the names of --keep: frames, contact sheet, film and last state.
 inline constexpr std::array<std::string_view, 4> kKept{"frames", "sheet", "film", "state"};
 
+// The names of --surface: as in the pictures, or around cells that are half full.
+inline constexpr std::array<std::string_view, 2> kSurfaces{"picture", "cells"};
+
 struct RunRecord {
   Common common;  // scene left empty
   std::uint32_t steps = 0, frame_every = 0;
@@ -29,6 +32,7 @@ struct RunRecord {
   std::string checkpoint_every;       // as --checkpoint-every; empty for none
   std::vector<std::string> write;     // formats of --write
   std::uint32_t write_every = 0;      // steps between states written; 0: the first and the last
+  std::string surface;                // as --surface; empty for the usual one
   std::vector<std::string> left_out;  // of kKept, what a complete run removes
   std::string journal;                // text of --journal; empty for none
   std::string journal_name;           // as --journal

@@ -124,14 +124,14 @@ class Run {
     if (frame_is_due(record(), begun_at_) &&
         record().frame_steps.size() == frames_due_before(record(), begun_at_))
       show(begun_at_);
-    if (begun_at_ == 0) written_.add(simulation_);
+    if (begun_at_ == 0) written_.add(simulation_, run_.scene);
     Progress progress(steps(), common().quiet, begun_at_);
     while (simulation_.steps_done() < steps() && !interrupted() && !is_late()) {
       if (journal_.apply()) checkpoints_.change_settings(journal_.settings(), simulation_.volume().grid);
       simulation_.step();
       film_->check();
       const std::uint32_t done = simulation_.steps_done();
-      written_.add(simulation_);
+      written_.add(simulation_, run_.scene);
       if (done < steps() && checkpoints_.due(interval_, done)) checkpoint();
       if (frame_is_due(record(), done)) show(done);
       progress.show(done, simulation_.volume());

@@ -40,6 +40,13 @@ bool has_series(const RunRecord& record) {
   return std::ranges::find(record.write, "vti") != record.write.end();
 }
 
+// Tells if a format asks for the surface of the pictures.
+bool wants_drawn(const RunRecord& record) {
+  return record.surface != "cells" && std::ranges::any_of(record.write, [](const std::string& name) {
+           return io::find_format(name)->of_surface;
+         });
+}
+
 fs::path folder_of(const fs::path& folder, std::uint32_t step) {
   return folder / kStates / fmt::format("step_{:05}", step);
 }
@@ -112,7 +119,7 @@ WrittenStates::WrittenStates(const RunRecord& record, fs::path folder, std::uint
   settled_ = states_ == 0;
 }
 
-void WrittenStates::add(const run::Simulation& simulation) {
+void WrittenStates::add(const run::Simulation& simulation, const scene::Scene& scene) {
   const std::uint32_t step = simulation.steps_done();
   if (!write_is_due(record_, step)) return;
   io::Moment moment = moment_of(simulation);
@@ -125,6 +132,8 @@ void WrittenStates::add(const run::Simulation& simulation) {
   if (has(record_, false)) {
     const fs::path folder = folder_of(folder_, step);
     io::make_folder(folder);
+    if (wants_drawn(record_))
+      moment.surface = surface_.of(simulation.volume(), scene, thread_count(record_.common));
     for (const std::string& name : record_.write)
       if (name != kTable) io::find_format(name)->write(moment, folder, {});
     io::flush_folder(folder);

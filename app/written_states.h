@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "app/drawn_surface.h"
 #include "app/run_record.h"
 #include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
 
 namespace voxmelt::app {
 
@@ -27,7 +29,7 @@ class WrittenStates {
   WrittenStates(const RunRecord& record, std::filesystem::path folder, std::uint32_t begun_at);
 
   // Writes the state if it is due. It is called after each step, because it knows the time of a step, too.
-  void add(const run::Simulation& simulation);
+  void add(const run::Simulation& simulation, const scene::Scene& scene);
   // Puts all rows and the list into their files. Whoever goes on from here finds them there.
   void settle();
   // Says where the states are, if there are any.
@@ -43,6 +45,7 @@ class WrittenStates {
   Clock::time_point last_ = Clock::now();
   std::uint32_t last_step_;
   std::size_t states_ = 0;
+  DrawnSurface surface_;
 };
 
 // Takes over what was written up to a step, where the run's record says that it is due.

@@ -19,7 +19,7 @@ namespace voxmelt::measure {
 namespace {
 
 constexpr std::size_t kCopied = std::size_t{256} << 20;  // bytes of each half
-constexpr int kCopies = 4, kLaunches = 200, kTrials = 3;
+constexpr int kCopies = 4, kLaunches = 200, kTrials = 2;
 constexpr int kItems = 128;  // of a group
 constexpr int kFullSide = 64;
 constexpr std::uint64_t kLargeDevice = std::uint64_t{32} << 30;  // bytes
@@ -107,22 +107,23 @@ class OnDevice {
   state::Ledger ledger_;
 };
 
-// Seconds of a step as a run has it, with visibility, and with what comes and goes for it.
-double step_of_a_run(const Workload& workload, const step::Implementation& implementation, int threads) {
-  run::Simulation simulation(workload.parameters, workload.start, implementation,
-                             step::Tuning{.threads = threads});
+// Seconds of a step as a run has it, with visibility, and with what comes and goes for it. It also sees that
+// the bits and the books are right.
+double step_of_a_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected) {
+  run::Simulation simulation(workload.parameters, workload.start, *candidate.implementation,
+                             step::Tuning{.threads = candidate.threads});
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
   simulation.ledger();  // waits for the device
-  return seconds_for(Clock::wall,
-                     [&] {
-                       for (int i = 0; i < workload.steps; ++i) simulation.step();
-                       simulation.ledger();
-                     }) /
-         workload.steps;
+  const double seconds = seconds_for(Clock::wall, [&] {
+    for (int i = 0; i < workload.steps; ++i) simulation.step();
+    simulation.ledger();
+  });
+  check_result(simulation, workload, candidate, expected);
+  return seconds / workload.steps;
 }
 
-void time_rounds(OnDevice& run, const Workload& workload, const step::Implementation& implementation,
-                 std::uint64_t expected, const Rounds& rounds, DeviceCase& one) {
+void time_rounds(OnDevice& run, const Workload& workload, std::uint64_t expected, const Rounds& rounds,
+                 DeviceCase& one) {
   const auto wall = [](const auto& work) { return seconds_for(Clock::wall, work); };
   Least step, beside, there, masks, back;
   for (const RoundClock clock(rounds); clock.more(one.rounds); ++one.rounds) {
@@ -134,9 +135,6 @@ void time_rounds(OnDevice& run, const Workload& workload, const step::Implementa
     beside.add(mean(timed_run(workload, one.processor, expected)).total());
   }
   one.seconds = step.value();
-  // Each of these opens the device anew, which takes longer than its steps.
-  one.as_run =
-      least_of(rounds.fewest, [&] { return step_of_a_run(workload, implementation, one.processor.threads); });
   one.processor_seconds = beside.value();
   one.upload.seconds = there.value();
   one.masks.seconds = masks.value();
@@ -206,8 +204,6 @@ DeviceCase DeviceBench::run(const Workload& given) {
   Workload workload = given;
   workload.parameters.pieces.fall = false;  // the host's work
   const std::uint64_t expected = expected_digest(workload);
-  timed_run(workload, {&implementation_, 1}, expected);  // only to see its bits and its books
-
   DeviceCase one;
   one.workload = workload.name;
   one.judge = workload.judge;
@@ -220,7 +216,11 @@ DeviceCase DeviceBench::run(const Workload& given) {
   if (machine_.copy == 0) measure_machine(on_device.device());
   one.copied_per_second = machine_.copy;
   one.launch = machine_.launch;
-  time_rounds(on_device, workload, implementation_, expected, rounds_, one);
+  // Each of these opens the device anew, which takes longer than its steps.
+  one.as_run = least_of(kTrials, [&] {
+    return step_of_a_run(workload, {&implementation_, beside_.threads}, expected);
+  });
+  time_rounds(on_device, workload, expected, rounds_, one);
   count_bytes(on_device, one);
   time_kernels(on_device, workload, one);
   return one;

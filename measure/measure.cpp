@@ -69,6 +69,20 @@ std::uint64_t expected_digest(const Workload& workload) {
   return state::digest(simulation.volume());
 }
 
+void check_result(const run::Simulation& simulation, const Workload& workload, const Candidate& candidate,
+                  std::uint64_t expected) {
+  const auto fail = [&](const std::string& what) {
+    throw Mismatch(fmt::format("{} on {}, {} threads: {}", candidate.implementation->name, workload.name,
+                               candidate.threads, what));
+  };
+  const std::uint64_t digest = state::digest(simulation.volume());
+  if (digest != expected)
+    fail(fmt::format("digest {:016x} after {} steps; {} has {:016x}", digest,
+                     workload.lead_steps + workload.steps, workload.judge, expected));
+  const state::Drift drift = simulation.drift();
+  if (drift.mass != 0 || drift.energy != 0 || drift.heat != 0) fail("the ledgers do not balance");
+}
+
 Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint64_t expected) {
   run::Simulation simulation = fresh(workload, candidate);
   for (int i = 0; i < workload.lead_steps; ++i) simulation.step();
@@ -83,16 +97,7 @@ Steps timed_run(const Workload& workload, const Candidate& candidate, std::uint6
     }
   }
 
-  const auto fail = [&](const std::string& what) {
-    throw Mismatch(fmt::format("{} on {}, {} threads: {}", candidate.implementation->name, workload.name,
-                               candidate.threads, what));
-  };
-  const std::uint64_t digest = state::digest(simulation.volume());
-  if (digest != expected)
-    fail(fmt::format("digest {:016x} after {} steps; {} has {:016x}", digest,
-                     workload.lead_steps + workload.steps, workload.judge, expected));
-  const state::Drift drift = simulation.drift();
-  if (drift.mass != 0 || drift.energy != 0 || drift.heat != 0) fail("the ledgers do not balance");
+  check_result(simulation, workload, candidate, expected);
   return steps;
 }
 

@@ -15,6 +15,10 @@
 #include "measure/rounds.h"
 #include "measure/workloads.h"
 
+namespace voxmelt::run {
+class Simulation;
+}
+
 namespace voxmelt::measure {
 
 // Is thrown if an implementation gave other bits than the reference, or its ledgers do not balance.
@@ -45,6 +49,10 @@ Seconds mean(const Steps& steps);
 struct Medians {
   double flow = 0, heat = 0;
 };
+
+// Throws Mismatch unless the state has `expected` for a digest, and the ledgers balance.
+void check_result(const run::Simulation& simulation, const Workload& workload, const Candidate& candidate,
+                  std::uint64_t expected);
 
 // Runs one fresh simulation: workload.lead_steps untimed, then workload.steps timed. Throws Mismatch unless
 // the state has `expected` for a digest afterwards and the ledgers balance.

@@ -117,6 +117,94 @@ def volume(points, triangles):
 READERS = {"ply": read_ply, "glb": read_glb, "stl": read_stl, "obj": read_obj}
 
 
+# A corner of three slabs, beside liquid that has just been poured. It is in the air, and there is no ground.
+IN_THE_AIR = """
+[grid]
+size = [12, 10, 12]
+[[solid]]
+shape = "box"
+size = [6, 2, 6]
+at = [4, 3, 4]
+temperature = 0.1
+[[solid]]
+shape = "box"
+size = [2, 6, 6]
+at = [2, 5, 4]
+temperature = 0.1
+[[solid]]
+shape = "box"
+size = [6, 6, 2]
+at = [4, 5, 2]
+temperature = 0.1
+[[liquid]]
+shape = "box"
+size = [3, 3, 5]
+at = [9.5, 5.5, 6.5]
+temperature = 0.6
+[material]
+melting_point = 0.5
+[heat]
+gamma = 0.1
+[look]
+smooth = 2
+smooth_solid = 1
+"""
+# A pool on a floor two deep, and a corner of walls that rises from it.
+POOL = """
+[grid]
+size = [24, 10, 16]
+[[inert]]
+shape = "floor"
+thickness = 2
+[[inert]]
+shape = "box"
+size = [2, 8, 16]
+at = [23, 6, 8]
+[[inert]]
+shape = "box"
+size = [24, 8, 2]
+at = [12, 6, 15]
+[[liquid]]
+shape = "box"
+size = [8, 1, 8]
+at = [8, 2.5, 8]
+"""
+
+
+def filtered(values, size, passes):
+    """Section 6: each axis after the other; cells outside are like the nearest one inside, and filtered like any other."""
+    x, y, z = (n + 2 * passes for n in size)
+    def at(i, n):
+        return min(max(i - passes, 0), n - 1)
+    wide = [values[at(a, size[0]) + size[0] * (at(b, size[1]) + size[1] * at(c, size[2]))]
+            for c in range(z) for b in range(y) for a in range(x)]
+    for _ in range(passes):
+        for stride, count in ((x * y, z), (x, y), (1, x)):
+            wide = [wide[i] if not 0 < i // stride % count < count - 1 else (wide[i - stride] + 2 * wide[i] + wide[i + stride] + 2) >> 2
+                    for i in range(len(wide))]
+    return [wide[a + passes + x * (b + passes + y * (c + passes))] for c in range(size[2]) for b in range(size[1]) for a in range(size[0])]
+
+
+def cells_of_the_picture(fields, size, liquid_passes, solid_passes):
+    """The cells whose intensity is half or more, and those beside the edge of these."""
+    amounts = [min(a, 4096) if s or l else 0 for a, s, l in zip(fields["amount"], fields["solid"], fields["liquid"])]
+    of = [16 * a - ((a + 15) >> 4) for a in amounts]
+    solid, liquid = ([v if kind else 0 for v, kind in zip(of, fields[name])] for name in ("solid", "liquid"))
+    passes = max(liquid_passes, solid_passes, 1)
+    s, l = filtered(solid, size, passes), filtered(liquid, size, passes)
+    soft_way, hard_way = filtered(of, size, liquid_passes), filtered(of, size, solid_passes)
+    inside = set()
+    for i in range(len(of)):
+        every, soft = (s[i] + l[i] + 3) >> 2, (l[i] + 3) >> 2
+        over = min(max(5 * soft - 2 * every, 0), 2 * every)
+        t = 64 * over // every if every else 0
+        weight = (t * t * (384 - 2 * t)) >> 13
+        if (hard_way[i] * (256 - weight) + soft_way[i] * weight + 128) >> 8 >= 32640:
+            inside.add(i)
+    beside = {i + step for i in inside for step in (-1, 0, 1) if 0 <= i + step < len(of)}
+    return inside, beside
+
+
 class Surface(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -125,14 +213,15 @@ class Surface(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def export(self, scene, steps, form):
-        result = voxmelt("export", scene, "--steps", steps, "--format", form, "--out", form, "--quiet", cwd=self.folder)
+    def export(self, scene, steps, form, *more):
+        cells = ["--surface", "cells"] if form in FORMATS and not more else more
+        result = voxmelt("export", scene, "--steps", steps, "--format", form, "--out", form, "--quiet", *cells, cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         return self.folder / form
 
-    def surfaces(self, scene, steps):
+    def surfaces(self, scene, steps, *more):
         for form in FORMATS:
-            yield form, READERS[form]((self.export(scene, steps, form) / f"surface.{form}").read_bytes())
+            yield form, READERS[form]((self.export(scene, steps, form, *more) / f"surface.{form}").read_bytes())
 
     def closed(self, triangles):
         edges = Counter((t[i], t[(i + 1) % 3]) for t in triangles for i in range(3))
@@ -172,6 +261,70 @@ class Surface(unittest.TestCase):
             heats = {(fields["heat"][x + 12 * y + 120 * z], 0, fields["liquid"][x + 12 * y + 120 * z]) for x, y, z in inside}
             self.assertLessEqual(set(made_of), heats)
             self.assertEqual({m[2] for m in made_of}, {fields["liquid"][x + 12 * y + 120 * z] for x, y, z in inside})
+
+    def test_the_surface_of_the_pictures(self):
+        """It is around the cells of docs/picture/field.md, sections 2, 6 and 7, computed here from the state."""
+        write(self.folder, IN_THE_AIR)
+        fields = {name: npy(self.export("scene.toml", 0, "npy") / f"{name}.npy") for name in ("solid", "liquid", "amount", "heat")}
+        inside, beside = cells_of_the_picture(fields, (12, 10, 12), liquid_passes=2, solid_passes=1)
+        matter = {i for i in range(1440) if fields["solid"][i] or fields["liquid"][i]}
+        half = {i for i in matter if fields["amount"][i] >= 2048}
+        self.assertIn(3 + 12 * 4 + 120 * 3, inside - matter, "the corner is filled")
+        self.assertTrue(half - inside, "edges are rounded")
+        self.assertTrue(any(fields["liquid"][i] for i in inside) and any(fields["solid"][i] for i in inside))
+        first = None
+        for form, (points, triangles, made_of) in self.surfaces("scene.toml", 0, "--surface", "picture"):
+            self.closed(triangles)
+            shape = sorted(tuple(sorted(points[i] for i in t)) for t in triangles)
+            first = first or shape
+            self.assertEqual(shape, first, form)
+            if form != "ply":
+                continue
+            for i in sorted(beside):
+                middle = (i % 12 + 0.5, i // 12 % 10 + 0.5, i // 120 + 0.5)
+                self.assertAlmostEqual(windings(points, triangles, middle), i in inside, places=3)
+            self.assertLessEqual({m[0] for m in made_of}, {fields["heat"][i] for i in matter} - {0})
+        usual = READERS["ply"]((self.export("scene.toml", 0, "ply", "--threads", "1") / "surface.ply").read_bytes())
+        self.assertEqual(sorted(tuple(sorted(usual[0][i] for i in t)) for t in usual[1]), first, "it is the usual one")
+
+    def test_thin_liquid_on_the_ground_and_in_corners(self):
+        """A pool of full cells on the floor, one deep, ends at its height. Corners of obstacles are no matter."""
+        write(self.folder, POOL)
+        points, triangles, _ = READERS["ply"]((self.export("scene.toml", 0, "ply", "--surface", "picture") / "surface.ply").read_bytes())
+        self.closed(triangles)
+        for x, high in ((5.5, 2.8), (7.5, 2.95)):  # its rim is round
+            for y, inside in ((1.9, 0), (2.1, 1), (high, 1), (3.05, 0)):
+                self.assertAlmostEqual(windings(points, triangles, (x, y, 7.5)), inside, places=3, msg=(x, y))
+        low, high = (min(p[1] for p in points), max(p[1] for p in points))
+        self.assertAlmostEqual(low, 2, places=2)
+        self.assertAlmostEqual(high, 3, delta=0.1)
+        self.assertTrue(all(3 < p[axis] < 13 for p in points for axis in (0, 2)), "nothing but the pool")
+
+    def test_what_is_inert_within_matter(self):
+        deep = POOL.replace("size = [8, 1, 8]\nat = [8, 2.5, 8]", "size = [8, 6, 8]\nat = [8, 5, 8]")
+        write(self.folder, deep + '[[inert]]\nshape = "box"\nsize = [1, 1, 1]\nat = [8.5, 5.5, 8.5]\n')
+        points, triangles, _ = READERS["ply"]((self.export("scene.toml", 0, "ply", "--surface", "picture") / "surface.ply").read_bytes())
+        self.closed(triangles)
+        for x, inside in ((7.5, 1), (8.5, 0), (9.5, 1)):
+            self.assertAlmostEqual(windings(points, triangles, (x, 5.5, 8.5)), inside, places=3, msg=x)
+
+    def test_a_run_writes_both(self):
+        write(self.folder, SMALL)
+        for surface in ("cells", "picture"):
+            result = voxmelt("run", "scene.toml", "--steps", 2, "--write", "ply", "--write-every", 1, "--surface", surface,
+                             "--out", surface, "--quiet", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for step in range(3):
+                alone = self.export("scene.toml", step, "ply", "--surface", surface) / "surface.ply"
+                self.assertEqual((self.folder / surface / f"states/step_{step:05}/surface.ply").read_bytes(), alone.read_bytes())
+
+    def test_other_formats_have_no_surface(self):
+        write(self.folder, SMALL)
+        for words in (["export", "scene.toml", "--format", "vti", "--out", "out"], ["run", "scene.toml", "--write", "npz,csv"], ["run", "scene.toml"]):
+            result = voxmelt(*words, "--surface", "cells", cwd=self.folder)
+            self.assertEqual((result.returncode, result.stderr),
+                             (2, "--surface cells: error: only ply, glb, stl and obj write a surface\n"))
+            self.assertFalse((self.folder / "out").exists())
 
     def test_materials_are_told(self):
         write(self.folder, SMALL.replace("temperature = 0.49", 'temperature = 0.49\nmaterial = "nut"') +

@@ -42,10 +42,10 @@ constexpr std::array kFormats{
     Format{"vti", "one VTK image", export_vti},
     Format{"nrrd", "NRRD, for teem and 3D Slicer", export_nrrd},
     Format{"npz", "NumPy arrays in one file", export_npz},
-    Format{"ply", "the surface, with heat and material", export_ply},
-    Format{"glb", "the same for viewers", export_glb},
-    Format{"stl", "the surface alone", export_stl},
-    Format{"obj", "the same as text", export_obj},
+    Format{"ply", "the surface, with heat and material", export_ply, true},
+    Format{"glb", "the same for viewers", export_glb, true},
+    Format{"stl", "the surface alone", export_stl, true},
+    Format{"obj", "the same as text", export_obj, true},
     Format{"csv", "a row of the books", export_csv},
 };
 

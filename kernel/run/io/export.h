@@ -17,6 +17,12 @@ namespace voxmelt::io {
 // Is called now and then. Any exception from it ends the export.
 using Poll = std::function<void()>;
 
+// A number for each cell, in the order of Grid::index. Cells with `inside` or more are within a surface.
+struct Lattice {
+  const std::uint16_t* numbers = nullptr;  // null: the amounts of matter
+  std::uint16_t inside = 2048;             // half of a full cell
+};
+
 // Is what a format writes. A state alone has books that begin with it.
 struct Moment {
   Moment(const state::Volume& v) : volume(v) {}  // NOLINT: a volume is a moment
@@ -24,6 +30,7 @@ struct Moment {
   const state::Ledger* ledger = nullptr;
   std::uint32_t step = 0;       // steps done
   double seconds_per_step = 0;  // of the steps before it
+  Lattice surface;              // what formats of meshes draw
 };
 
 // Describes a format for the fields of a state. `write` makes files in an existing folder, and throws
@@ -32,6 +39,7 @@ struct Format {
   std::string_view name;         // name that users give
   std::string_view description;  // a few words
   void (*write)(const Moment& moment, const std::filesystem::path& folder, const Poll& poll);
+  bool of_surface = false;  // it is one of meshes
 };
 
 std::span<const Format> formats();                 // all of them; the first one is the default

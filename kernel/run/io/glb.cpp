@@ -102,7 +102,7 @@ std::string chunk_head(std::size_t size, const char* type) {
 }  // namespace
 
 void export_glb(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
-  const Surface surface = surface_of(moment.volume, poll);
+  const Surface surface = surface_of(moment, poll);
   Layout layout;
   std::string head = head_of(surface, layout);
   head.resize((head.size() + 3) / 4 * 4, ' ');

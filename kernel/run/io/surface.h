@@ -1,8 +1,9 @@
 // The surface of the matter of a state as triangles, for formats of meshes.
 //
-// It separates the middles of cells that hold half a full cell or more, solid or liquid, from those that hold
-// less. In between it lies where the amount, linear along a line of the lattice, passes a half. It is closed,
-// also at the border of the grid, and every edge belongs to exactly two triangles.
+// It separates the middles of cells within it from the others: those that hold half a full cell or more,
+// solid or liquid, or as a lattice of numbers says (export.h). In between it lies where the number, linear
+// along a line of the cells' middles, passes `inside`. Where matter meets what is inert, and at the border of
+// the grid, it lies half way. It is closed, and every edge belongs to exactly two triangles.
 #pragma once
 
 #include <array>
@@ -14,7 +15,8 @@
 
 namespace voxmelt::io {
 
-// Has the place of a point of the surface, in cells, and what the cell inside of it holds.
+// Has the place of a point of the surface, in cells, and what the cell inside of it holds, or else the
+// nearest one beside that which holds matter.
 struct SurfaceVertex {
   std::array<float, 3> at{};
   std::uint16_t heat = 0;     // heat content
@@ -29,6 +31,6 @@ struct Surface {
 };
 
 // Throws std::length_error where 32 bits do not count its vertices.
-Surface surface_of(const state::Volume& volume, const Poll& poll);
+Surface surface_of(const Moment& moment, const Poll& poll);
 
 }  // namespace voxmelt::io

@@ -81,7 +81,7 @@ std::array<float, 3> normal_of(const Surface& surface, const Triangle& triangle)
 }  // namespace
 
 void export_ply(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
-  const Surface surface = surface_of(moment.volume, poll);
+  const Surface surface = surface_of(moment, poll);
   Bytes file(folder / "surface.ply", poll);
   file.add("ply\nformat binary_little_endian 1.0\nelement vertex");
   add_word(file, surface.vertices.size());
@@ -104,7 +104,7 @@ void export_ply(const Moment& moment, const std::filesystem::path& folder, const
 }
 
 void export_stl(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
-  const Surface surface = surface_of(moment.volume, poll);
+  const Surface surface = surface_of(moment, poll);
   Bytes file(folder / "surface.stl", poll);
   std::string head = "binary STL of voxmelt";  // a head that begins with "solid" would mean text
   head.resize(80, ' ');
@@ -119,7 +119,7 @@ void export_stl(const Moment& moment, const std::filesystem::path& folder, const
 }
 
 void export_obj(const Moment& moment, const std::filesystem::path& folder, const Poll& poll) {
-  const Surface surface = surface_of(moment.volume, poll);
+  const Surface surface = surface_of(moment, poll);
   Bytes file(folder / "surface.obj", poll);
   for (const SurfaceVertex& vertex : surface.vertices) {
     file.add("v");
