@@ -1,5 +1,5 @@
 // Reads what the cells of one lane show, upwards, at one place of the stage spread (docs/automaton.md, section
-// 10). A run's head lies in the word of its first cell, and its pace in the word of the blocked cell below it.
+// 10). A run's head lies in the words of all its cells, and its pace in the word of the blocked cell below it.
 //
 // A word is {shown, heat, amount, beside a wall, set, ground}. What is shown is {rise, pace} of a blocked cell
 // and {.., head} of another one. A pace is {shut, dead, limit, mobility}.
@@ -27,7 +27,7 @@ module run_reader #(
   wire first = runs0 & on_blocked;
   wire [61:0] next_now = BRINGS != 0 | floor0 ? pace0 : next;
   wire [61:0] pace_now = first ? next_now : pace;
-  wire [29:0] head_now = first ? word0[65:36] : head;
+  wire [29:0] head0 = word0[65:36];
   wire [17:0] bed_now = first ? bed_head[22:5] : run_bed;
   wire [16:0] inert = {1'b0, word0[19:4]} + 17'd2048;
 
@@ -48,7 +48,7 @@ module run_reader #(
         next <= word0[97:36];
       end
       if (runs0) begin
-        head <= head_now;
+        head <= head0;
         run_bed <= bed_now;
         pace <= pace_now;
       end
@@ -59,7 +59,7 @@ module run_reader #(
       amount1 <= word0[19:4];
       heat1 <= word0[35:20];
       has_bed1 <= ~blocked0 & (runs0 | on_blocked | on_run);
-      head1 <= runs0 ? head_now : on_blocked ? bed_head : on_run ? head : {9'd0, y0, 9'd0} - 30'd1024;
+      head1 <= runs0 ? head0 : on_blocked ? bed_head : on_run ? head : {9'd0, y0, 9'd0} - 30'd1024;
       height1 <= runs0 ? bed_now : on_blocked ? bed_head[22:5] : run_bed;
       pace1 <= runs0 ? pace_now : on_run & ~on_blocked ? {26'd0, pace[35:0]} : 62'd0;
 

@@ -92,13 +92,12 @@ module spread_stage #(
   logic [P*62-1:0] paces0, floors[0:BLOCKS-1], floor_south;
   logic [61:0] floor_now, floor_west, floor_south_west;
   localparam BLOCK = BLOCKS > 1 ? $clog2(BLOCKS) : 1;
-  logic [11:0] block8, block9;
+  logic [11:0] block8;
   logic begins8;
   delay #(.WIDTH(13), .N(8)) blocks8 (
       .clk(clk), .en(move), .d({came.y == 12'd0, came.block}), .q({begins8, block8}));
   always_ff @(posedge clk)
     if (move) begin
-      block9 <= block8;
       if (begins8) begin
         floor_south_west <= floor_south[(P-1)*62+:62];
         floor_west <= floor_now;
@@ -106,7 +105,7 @@ module spread_stage #(
       end
       if (y0 == 12'd0) begin
         floor_now <= paces0[(P-1)*62+:62];
-        floors[block9[BLOCK-1:0]] <= paces0;
+        floors[block8[BLOCK-1:0]] <= paces0;  // the next token is of the same column
       end
     end
 

@@ -43,12 +43,24 @@ class Exchange {
   }
 
   [[gnu::always_inline]] void run(const TileRow* tiles, const HeatTiles& tell, Books& books) {
+    if (kFeatures.air && glows_)
+      run_rows<kFeatures.air>(tiles, tell);
+    else
+      run_rows<false>(tiles, tell);
+    books.heat.radiated += radiated_.total();
+    books.heat.warmed += warmed_.total();
+    books.heat.cooled += cooled_.total();
+  }
+
+ private:
+  template <bool kGlows>
+  [[gnu::always_inline]] void run_rows(const TileRow* tiles, const HeatTiles& tell) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
       if (tiles[r] == 0) continue;
       for (int y = v_.tile_begin(r); y < v_.tile_end(r); ++y) {
         const Row row = row_at(y);
         for (TileRow left = tiles[r]; left != 0; left &= left - 1) {
-          const Found found = word(row, __builtin_ctzll(left));
+          const Found found = word<kGlows>(row, __builtin_ctzll(left));
           if (found.changed) tell.changed[r] |= left & -left;
           if (found.restless) tell.restless[r] |= left & -left;
           if (found.hot) tell.hot[r] |= left & -left;
@@ -58,12 +70,8 @@ class Exchange {
         cooled_.end_row();
       }
     }
-    books.heat.radiated += radiated_.total();
-    books.heat.warmed += warmed_.total();
-    books.heat.cooled += cooled_.total();
   }
 
- private:
   struct Found {
     bool changed, restless, hot;
   };
@@ -109,6 +117,7 @@ class Exchange {
     return {x | up | front, (x & up) | (x & front) | (up & front), x & up & front};
   }
 
+  template <bool kGlows>
   [[gnu::always_inline]] Found word(const Row& row, int w) {
     const std::size_t mask = row.mask + static_cast<std::size_t>(w),
                       cell = row.cell + 64 * static_cast<std::size_t>(w);
@@ -130,7 +139,7 @@ class Exchange {
         if (lit)
           heat = radiate(heat, amount, L::keep(L::from_bits(solid, part), L::load(irradiance_ + at)), left);
       if constexpr (kFeatures.air)
-        if (bare.one != 0) heat = meet_air(row.y, heat, amount, bare, at, part, left);
+        if (bare.one != 0) heat = meet_air<kGlows>(row.y, heat, amount, bare, at, part, left);
       L::store(v_.heat + at, heat);
       any = any | (heat ^ old);
       hottest = L::max(hottest, heat);
@@ -154,6 +163,7 @@ class Exchange {
   }
 
   // Exchanges heat with the air, and glows.
+  template <bool kGlows>
   [[gnu::always_inline]] V meet_air(int y, V heat, V amount, const Exposed& bare, std::size_t at, int part,
                                     V& left) {
     const V air = L::set(air_temperature_[y]);
@@ -161,12 +171,12 @@ class Exchange {
       const MaterialLanes<Arch> materials(v_.material + at);
       const V rates[3] = {materials.of(rates_[0]), materials.of(rates_[1]), materials.of(rates_[2])};
       heat = exchange(heat, amount, bare, temperature_(heat, materials), air, rates, part, left);
-      if (!glows_) return heat;
+      if constexpr (!kGlows) return heat;
       return exchange(heat, amount, bare, fourth_power(temperature_(heat, materials)), sky_, glow_rate_, part,
                       left);
     } else {
       heat = exchange(heat, amount, bare, temperature_(heat), air, rate_, part, left);
-      if (!glows_) return heat;
+      if constexpr (!kGlows) return heat;
       return exchange(heat, amount, bare, fourth_power(temperature_(heat)), sky_, glow_rate_, part, left);
     }
   }
