@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "python/docs.h"
+#include "python/textures.h"
 
 namespace py = pybind11;
 
@@ -62,6 +63,7 @@ PYBIND11_MODULE(_voxmelt, m) {
   m.doc() = "The library of voxmelt (docs/python.md).";
   voxmelt::python::add_errors(m);
   voxmelt::python::add_records(m);
+  voxmelt::python::add_textures(m);
   voxmelt::python::add_state(m);
   voxmelt::python::add_simulation(m);
   m.def("version", &voxmelt::version, doc("version"));

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,11 +63,17 @@ class Record {
     return *this;
   }
 
-  // A field of a record that only the library makes.
+  // A field of a record that only the library makes. It may be an object of Python.
   template <class Member>
   Record& shows(const char* name, Member T::*member) {
-    fields_->add(class_, name,
-                 [member](py::handle self) { return frozen(py::cast(self.cast<const T&>().*member)); }, {});
+    const auto get = [member](py::handle self) -> py::object {
+      const Member& value = self.cast<const T&>().*member;
+      if constexpr (std::is_base_of_v<py::object, Member>)
+        return value;
+      else
+        return frozen(py::cast(value));
+    };
+    fields_->add(class_, name, get, {});
     return *this;
   }
 

@@ -35,6 +35,13 @@ void add_enums(py::module_& m) {
                    {"liquid", Shown::liquid},
                    {"obstacle", Shown::obstacle},
                    {"ground", Shown::ground}});
+  add_enum<TexelFormat>(m, "TexelFormat",
+                        {{"u16", TexelFormat::u16},
+                         {"u8x4", TexelFormat::u8x4},
+                         {"u32x2", TexelFormat::u32x2},
+                         {"u32x4", TexelFormat::u32x4},
+                         {"i32", TexelFormat::i32},
+                         {"i32x2", TexelFormat::i32x2}});
   add_enum<HeatSourceKind>(m, "HeatSourceKind",
                            {{"point", HeatSourceKind::point},
                             {"sphere", HeatSourceKind::sphere},

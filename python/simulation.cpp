@@ -24,6 +24,7 @@
 #include "python/module.h"
 #include "python/record.h"
 #include "python/state.h"
+#include "python/textures.h"
 
 namespace voxmelt::python {
 namespace {
@@ -214,6 +215,7 @@ void add_pictures(py::class_<Handle>& cls) {
       .add("draw", Access::draw, &S::draw, py::arg("file"), picture);
   cls.def("render", &render, doc("Simulation::render"), picture, py::arg("stop") = py::none());
   cls.def("render_cells", &render_cells, doc("Simulation::render_cells"), view, picture);
+  cls.def("textures", &textures_of, doc("Simulation::textures"), py::arg("version") = 0);
 }
 
 }  // namespace

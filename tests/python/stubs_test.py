@@ -21,7 +21,6 @@ from voxmelt import _voxmelt  # noqa: E402
 STUBS = ast.parse((PACKAGE / "voxmelt/_voxmelt.pyi").read_text())
 # What programs in C++ have and those in Python do not: arrays, threading.Event and keywords stand for it.
 ONLY_IN_CPP = {"ByteView", "FieldView", "MaskView", "NumberView", "Options", "Position", "Progress", "Sum", "to_string",
-               "Texture", "TextureBrick", "TextureNumbers", "Textures", "TexelFormat", "Simulation::textures",
                "kHeatSourceKinds", "NamedField::at", "voxmelt"}
 OTHERWISE = {"kNever": "NEVER", "kBrickSide": "BRICK_SIDE", "from": "from_"}
 

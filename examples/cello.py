@@ -1,0 +1,5 @@
+import voxmelt
+
+cello = voxmelt.Simulation("scenes/cello.toml")
+cello.step(600)
+cello.draw("cello.png")
