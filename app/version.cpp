@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/scene/shape/heightfield.h"
 #include "render/frames/webp_bytes.h"
 #include "render/image/video.h"
 
@@ -32,10 +33,11 @@ std::string instruction_sets() {
 std::string version_number() { return VOXMELT_VERSION; }
 
 std::string version_text() {
-  return fmt::format("voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}", version_number(),
-                     compiler(), instruction_sets(),
+  return fmt::format("voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}\nlibtiff: {}",
+                     version_number(), compiler(), instruction_sets(),
                      render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)",
-                     render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)");
+                     render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)",
+                     scene::tiff_is_built_in() ? "built in (GeoTIFF)" : "not built in (no GeoTIFF)");
 }
 
 }  // namespace voxmelt::app

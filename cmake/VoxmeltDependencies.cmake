@@ -29,6 +29,18 @@ elseif(PROJECT_IS_TOP_LEVEL)
   message(STATUS "no libwebp: films want ffmpeg (apt-get install libwebp-dev)")
 endif()
 
+# libtiff reads height fields. Who uses it links `tiff`. Its errors go to a handler of one file since version 4.5.
+find_path(TIFF_INCLUDE tiffio.h)
+find_library(TIFF_LIBRARY tiff)
+if(TIFF_INCLUDE AND TIFF_LIBRARY)
+  file(STRINGS ${TIFF_INCLUDE}/tiffio.h tiff_of_4_5 REGEX TIFFOpenOptionsAlloc)
+endif()
+if(tiff_of_4_5)
+  set(TIFF_FOUND ON)
+elseif(PROJECT_IS_TOP_LEVEL)
+  message(STATUS "no libtiff 4.5: height fields are read from ESRI ASCII grids and PNG (apt-get install libtiff-dev)")
+endif()
+
 # The library needs nothing of what follows.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()

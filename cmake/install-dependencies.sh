@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libpng-dev libdeflate-dev libzstd-dev libxxhash-dev libfmt-dev
           libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxsimd-dev libbenchmark-dev libsystemc-dev
-          libboost-dev libjpeg-dev libwebp-dev opencl-c-headers)
+          libboost-dev libjpeg-dev libwebp-dev libtiff-dev opencl-c-headers)
 if [ "$(dpkg --print-architecture)" = amd64 ]; then packages+=(libembree-dev); fi
 if [ "${1:-build}" = test ]; then
   packages+=(libgtest-dev libgmock-dev clang clang-format clang-tidy doxygen python3 python3-numpy python3-pil pybind11-dev python3-dev python3-venv teem-apps assimp-utils strace valgrind verilator

@@ -80,8 +80,8 @@ BAD = {
     "bomb.png": (sized(8192, 8192), "it is too short for its pixels: is it truncated?"),
     "nothing.png": (png([[5, 5], [5, 5]], more=chunk(b"tRNS", b"\0\5")), "every pixel is without data"),
     "pointer.png": (b"version https://git-lfs.github.com/spec/v1\n", "no PNG picture: Not a PNG file"),
-    "a.tif": (b"II*\0\x08\0\0\0", "this is a TIFF; `gdal_translate -of AAIGrid` converts it"),
-    "b.tif": (b"MM\0*\0\0\0\x08", "this is a TIFF"),
+    "a.asc": (b"II*\0\x08\0\0\0", "this is a TIFF; call it .tif"),
+    "b.asc": (b"MM\0*\0\0\0\x08", "this is a TIFF; call it .tif"),
     "png.asc": (png(), "this is a PNG; call it .png"),
 }
 

@@ -106,7 +106,7 @@ ALLOWED = {
     "app/runs": ["app", "report/runs", "kernel/scene", "kernel/scene/text", "kernel/run/io", "kernel/run/checkpoint", "kernel/run/opening"],
     "app": ["library/journal", "render/density/density_field.h", "render/density/values.h", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "hwmodel/rtl/host", "hwmodel/rtl/write", "hwmodel/check/channel_trace.h",
-            "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
+            "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/scene/shape/heightfield.h", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders, or single files, that may include it. The rest is the standard library's.
@@ -117,6 +117,7 @@ THIRD_PARTY = {
     "embree3/": ["render/visibility"],
     "toml++/": ["kernel/scene/text"],
     "png.h": ["render/image", "kernel/scene/shape/png_heights.cpp"],
+    "tiffio.h": ["kernel/scene/shape/tiff_file.h"],
     "libdeflate": ["kernel/run/io/npz.cpp", "kernel/run/io/vti.cpp", "kernel/scene/voxel_file/unpack.cpp", "render/image"],
     "zstd.h": ["kernel/run/checkpoint"],
     "xxhash.h": ["kernel/run/checkpoint"],

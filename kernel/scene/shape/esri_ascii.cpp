@@ -201,8 +201,7 @@ Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place)
   const std::string text = read_text_file(file, kLargestGridFile, place.text());
   for (const std::string_view tiff :
        {std::string_view("II*\0", 4), std::string_view("MM\0*", 4), std::string_view("II+\0", 4)})
-    if (text.starts_with(tiff))
-      fail_at(place, name + ": this is a TIFF; `gdal_translate -of AAIGrid` converts it");
+    if (text.starts_with(tiff)) fail_at(place, name + ": this is a TIFF; call it .tif");
   if (text.starts_with("\x89PNG")) fail_at(place, name + ": this is a PNG; call it .png");
   return EsriParser(without_mark(text, place, name), name, place).parse();
 }

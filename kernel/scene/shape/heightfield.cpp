@@ -27,7 +27,9 @@ double Elevation::at(int column, int row) const {
 Elevation read_elevation(const std::filesystem::path& file, const Place& place) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), lower_case);
-  return ending == ".png" ? read_png_heights(file, place) : read_esri_ascii(file, place);
+  if (ending == ".png") return read_png_heights(file, place);
+  if (ending == ".tif" || ending == ".tiff") return read_tiff_heights(file, place);
+  return read_esri_ascii(file, place);
 }
 
 bool fill_missing(Elevation& elevation) {

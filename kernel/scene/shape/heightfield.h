@@ -33,7 +33,12 @@ Elevation read_esri_ascii(const std::filesystem::path& file, const Place& place)
 // Reads a grey PNG of 1 to 16 bits. Throws InputError with `place` and the file.
 Elevation read_png_heights(const std::filesystem::path& file, const Place& place);
 
-// Reads one or the other, by the ending of the name.
+// Reads a GeoTIFF of one band: numbers of 8 to 64 bits in strips or tiles, north to south. Throws InputError
+// with `place` and the file, in a build without libtiff for every file.
+Elevation read_tiff_heights(const std::filesystem::path& file, const Place& place);
+bool tiff_is_built_in();
+
+// Reads one of them, by the ending of the name.
 Elevation read_elevation(const std::filesystem::path& file, const Place& place);
 
 // Gives the lowest elevation to cells without one. Returns false if no cell has one.
