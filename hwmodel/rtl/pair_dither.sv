@@ -13,10 +13,14 @@ module pair_dither #(
   logic [15:0] layer, offset12;
   logic [36:0] reciprocal12;
   logic [9:0] turn12;
-  logic [52:0] part15, sum16;
+  logic [33:0] low15;
+  logic [34:0] high15;
+  logic [52:0] sum16;
   logic [46:0] turned15;
   dither_unit of_layer (.step(32'(y11)), .dither(layer));
-  long_product #(.A(37), .B(16)) part (.clk(clk), .en(move), .a(reciprocal12), .b(offset12), .p(part15));
+  // The part of a layer is a product of two halves, whose carries are short.
+  long_product #(.A(18), .B(16)) lower_half (.clk(clk), .en(move), .a(reciprocal12[17:0]), .b(offset12), .p(low15));
+  long_product #(.A(19), .B(16)) upper_half (.clk(clk), .en(move), .a(reciprocal12[36:18]), .b(offset12), .p(high15));
   long_product #(.A(37), .B(10)) turns (.clk(clk), .en(move), .a(reciprocal12), .b(turn12), .p(turned15));
   assign rounding16 = sum16[51:36];
   always_ff @(posedge clk)
@@ -24,6 +28,6 @@ module pair_dither #(
       offset12 <= dither11 + layer + SHIFT;
       reciprocal12 <= reciprocal11;
       turn12 <= turn11;
-      sum16 <= part15 + {turned15[36:0], 16'd0};
+      sum16 <= {19'd0, low15} + {high15, 18'd0} + {turned15[36:0], 16'd0};
     end
 endmodule
