@@ -52,11 +52,13 @@ module gravity_lane (
   // Register 7: the loop of amounts. `low` is the present amount of p.
   voxmelt_pkg::cell_t cell7, cell8;
   logic [15:0] low, low7, high7;
-  logic low_blocked, low_empty, down7, up7;
+  logic low_blocked, down7, up7;
   wire signed [17:0] sum = above6 + $signed({2'b0, low});  // a_q - ONE + a_p
   wire pair = ~first6 & ~low_blocked & ~cell6.state[1];
-  wire down = pair & holds6 & (low < voxmelt_pkg::ONE) & ~(hangs6 & low_empty);
-  wire up = paper & pair & (low > voxmelt_pkg::ONE);
+  // ONE is a power of two, so these are no comparisons with a carry.
+  wire low_full = low[15:12] != 4'd0, low_part = low[11:0] != 12'd0;
+  wire down = pair & holds6 & ~low_full & ~(hangs6 & ~low_part);
+  wire up = paper & pair & (low[15:13] != 3'd0 | (low[12] & low_part));
   wire [15:0] fallen = sum > $signed({1'b0, left6}) ? sum[15:0] : left6[15:0];
   wire [15:0] risen = sum > $signed({2'b0, voxmelt_pkg::AMAX}) ? voxmelt_pkg::AMAX : sum[15:0];
   wire [15:0] high = down ? fallen : up ? risen : cell6.amount;
@@ -67,6 +69,9 @@ module gravity_lane (
   voxmelt_pkg::cell_t cell9, cell12, cell13;
   logic down12, up12, down13, up13;
   logic [15:0] stays12, flow12, low12, after12, high12, stays13, flow13, low13, after13, high13, gain13;
+  logic [15:0] left13, highest13;
+  logic signed [17:0] base13, bound13;
+  logic paid13, fixed13;
   logic signed [36:0] gain12;
   product #(.B(19)) times_beta (.clk(clk), .en(move), .a($signed({2'b0, moved9})), .b(beta), .p(gain12));
   delay #(.WIDTH(67 + 82), .N(3)) waits_for_beta (
@@ -74,16 +79,27 @@ module gravity_lane (
       .q({down12, up12, stays12, flow12, low12, after12, high12, cell12}));
   wire [18:0] whole_gain12 = gain12[34:16];
   wire [15:0] most12 = printed ? cell12.energy : voxmelt_pkg::AMAX;
+  wire paid12 = printed & down12;  // what p gains, q has paid
+  wire signed [17:0] energy12 = $signed({2'b0, cell12.energy});
+  wire signed [20:0] kept12 = $signed({2'b0, whole_gain12});
+  wire signed [20:0] left12 = 21'(energy12) - kept12;
 
   // Register 14: the loops of energy and heat. `held` is the present energy of p, `warmth` its present heat.
   logic [15:0] held, warmth, mixed;
   logic [1:0] below;
   logic below_set;
-  wire [15:0] room = after13 - held;
-  wire [15:0] gained = ~down13 ? 16'd0 : gain13 < room ? gain13 : room;
-  wire [15:0] climbs = ~up13 ? 16'd0 : held < flow13 ? held : flow13;
-  wire [15:0] left_printed = cell13.energy - gained;
-  wire [15:0] stays = ~(printed & down13) ? stays13 : left_printed < high13 ? left_printed : high13;
+  // With the present energy of p, that of q grows by as much, between two values. They and the bounds of
+  // `held` at which it reaches them are known before, but for the bound of a gain that p has room for.
+  wire signed [17:0] here = $signed({2'b0, held});
+  wire signed [17:0] shifted = base13 + here;
+  wire beyond = here > bound13;
+  wire [17:0] ones = here ^ {2'b0, gain13} ^ ~{2'b0, after13};
+  wire [17:0] twos = here & {2'b0, gain13} | (here | {2'b0, gain13}) & ~{2'b0, after13};
+  wire [17:0] over = ones + {twos[16:0], 1'b0};  // held + gain - after - 1
+  wire fits = over[17];
+  wire [15:0] lowest = left13 < high13 ? left13 : high13;
+  wire [15:0] held_next = fixed13 ? stays13 : paid13 & fits ? lowest : beyond ? highest13 : shifted[15:0];
+  wire [15:0] with_gain = held + gain13, without_flow = held - flow13;
   wire turns = hot & live13 & up13 & (flow13 != 16'd0);
   serial_mixer climbing (
       .clk(clk), .rst(rst), .start(turns), .move(move), .amount(cell13.amount), .heat(cell13.heat), .flow(flow13),
@@ -137,7 +153,6 @@ module gravity_lane (
       high7 <= high;
       low7 <= low;
       low <= high;
-      low_empty <= high == 16'd0;
       low_blocked <= cell6.state[1];
 
       cell8 <= cell7;
@@ -166,8 +181,14 @@ module gravity_lane (
       high13 <= high12;
       after13 <= after12;
       gain13 <= whole_gain12 > 19'(most12) ? most12 : whole_gain12[15:0];
+      paid13 <= paid12;
+      fixed13 <= ~paid12 & ~up12;
+      left13 <= left12[20] ? 16'd0 : left12[15:0];
+      base13 <= paid12 ? energy12 - $signed({2'b0, after12}) : $signed({2'b0, stays12});
+      bound13 <= $signed({2'b0, paid12 ? high12 : flow12}) - (paid12 ? energy12 - $signed({2'b0, after12}) : 18'sd0);
+      highest13 <= paid12 ? high12 : stays12 + flow12;
 
-      energy14 <= held + gained - climbs;
+      energy14 <= down13 ? (fits ? with_gain : after13) : ~up13 ? held : beyond ? without_flow : 16'd0;
       amount14 <= after13;
       state14 <= below;
       set14 <= below_set;
@@ -176,7 +197,7 @@ module gravity_lane (
       flow14 <= flow13;
       heat14 <= cell13.heat;
       mixes14 <= down13 & (flow13 != 16'd0);
-      held <= stays + climbs;
+      held <= held_next;
       warmth <= turns ? mixed : cell13.heat;
       below <= cell13.state;
       below_set <= paper & cell13.is_set;  // the viscous law has spread before
