@@ -13,7 +13,7 @@ module opening_lane #(
     input  logic [15:0] dither4,      // of the step of the cell, so many moves later
     output logic [49:0] treated       // 25 moves later
 );
-  wire [15:0] amount = stored[17:2], held = stored[33:18];
+  wire [15:0] amount = stored[17:2];
   wire acts = covers & ~stored[1];
   if (VENT != 0) begin : vent
     wire [15:0] space = voxmelt_pkg::AMAX - amount;
@@ -43,10 +43,21 @@ module opening_lane #(
         treated <= {mixes24 ? mixed24 : word24[49:34], word24[33:0]};
       end
   end else begin : drain
-    wire [15:0] taken = ~acts ? 16'd0 : rate < amount ? rate : amount;
-    wire [15:0] left = amount - taken;
-    wire [15:0] kept = ~acts | (held < left) ? held : left;
-    delay #(.WIDTH(50), .N(25)) waits (
-        .clk(clk), .en(move), .d({stored[49:34], kept, left, stored[1:0]}), .q(treated));
+    logic [49:0] word1, word2;
+    logic [15:0] taken1, left2;
+    logic acts1, acts2;
+    wire [15:0] held2 = word2[33:18];
+    wire [15:0] kept2 = ~acts2 | (held2 < left2) ? held2 : left2;
+    delay #(.WIDTH(50), .N(23)) waits (
+        .clk(clk), .en(move), .d({word2[49:34], kept2, left2, word2[1:0]}), .q(treated));
+    always_ff @(posedge clk)
+      if (move) begin
+        acts1 <= acts;
+        acts2 <= acts1;
+        taken1 <= ~acts ? 16'd0 : rate < amount ? rate : amount;
+        left2 <= word1[17:2] - taken1;
+        word1 <= stored;
+        word2 <= word1;
+      end
   end
 endmodule
