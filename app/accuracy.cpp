@@ -95,9 +95,9 @@ int run_accuracy(const AccuracyOptions& options) {
   }
   const std::vector<const Case*> cases = chosen_cases(options.cases);
   check_report_place(common, options.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
-  end_soon_at_interrupts();
 
   accuracy::Report report{.version = "voxmelt " + version_number(),
                           .implementation = conditions.implementation->name,

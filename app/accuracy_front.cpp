@@ -71,9 +71,9 @@ void write_files(const std::filesystem::path& folder, const accuracy::FrontRepor
 int run_front(const Common& common, const FrontOptions& options, const accuracy::Conditions& conditions) {
   const std::vector<const front::Subject*> subjects = chosen_subjects(options);
   check_report_place(common, options.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
-  end_soon_at_interrupts();
 
   const auto start = std::chrono::steady_clock::now();
   const front::Extent extent = options.quick ? front::Extent::quick : front::Extent::full;

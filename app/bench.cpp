@@ -157,6 +157,7 @@ int run_bench(BenchOptions options) {
   if (options.parts.empty()) options.parts = {"automaton", "picture"};
   const measure::Plan plan = plan_of(options);
   check_report_place(options.common, options.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
 
@@ -171,7 +172,6 @@ int run_bench(BenchOptions options) {
   const auto finer = options.wants("grids") && options.scenes.empty() ? finer_scenes(options)
                                                                       : scenes_of(options.wants("grids"), {});
   const auto films = scenes_of(options.wants("film"), film_scenes(options.quick));
-  end_soon_at_interrupts();
 
   warn_of_load(measure::load_average(), 0);
   if (automaton) {

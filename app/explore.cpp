@@ -107,9 +107,9 @@ int explore_one(const ExploreCommand& command) {
   const Common& common = command.common;
   ExploreScene scene(command, command.scenes.front());
   check_report_place(common, command.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!command.out.empty()) out.emplace(command.out);
-  end_soon_at_interrupts();
   scene.begin();
   const explore::Question& question = scene.question();
   explore::Axes axes = usual_axes(question);

@@ -45,9 +45,9 @@ int explore_batch(const ExploreCommand& command) {
   for (const std::string& scene : command.scenes)
     scenes.push_back(std::make_unique<ExploreScene>(command, scene));
   check_report_place(common, command.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!command.out.empty()) out.emplace(command.out);
-  end_soon_at_interrupts();
   for (const auto& scene : scenes) scene->begin();
   const std::vector<explore::Axes> axes = axes_of(scenes, command);
   std::vector<explore::Swept> swept;

@@ -149,9 +149,9 @@ int explore_sweep(const ExploreCommand& command) {
   ExploreScene scene(command, command.scenes.front());
   check_values(command, values);
   check_report_place(common, command.out);
+  end_soon_at_interrupts();
   std::optional<io::OutputFolder> out;
   if (!command.out.empty()) out.emplace(command.out);
-  end_soon_at_interrupts();
   scene.begin();
   std::vector<Row> rows;
   for (const std::string& value : values.values) {

@@ -44,8 +44,8 @@ int run_export(const ExportOptions& options) {
   keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
   check_report_place(options.common, options.out);
   check_steps(scene, options.steps);
-  io::OutputFolder out(options.out);
   end_soon_at_interrupts();
+  io::OutputFolder out(options.out);
   run::Simulation simulation = make_simulation(scene, options.common);
   RunJournal journal(scene, simulation);
   while (simulation.steps_done() < options.steps) {
