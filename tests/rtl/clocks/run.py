@@ -25,14 +25,16 @@ RTL = HERE.parents[2] / "hwmodel/rtl"
 RESULTS = HERE / "results.json"
 KEYS = {"part", "stage", "with", "tied", "note"}
 SEEDS, SECONDS = (1, 2, 3), 240  # of nextpnr, which now and then does not end
+WANTED = 80  # MHz: below that further seeds are tried
 CELLS = {"luts": "SB_LUT4", "registers": "SB_DFF", "memories": "SB_RAM"}
 HEAD = """<!-- Written by tests/rtl/clocks/run.py -->
 # Clocks of the parts in SystemVerilog
 
 An iCE40 HX8K has 7,680 LUT4, so stages are cut at their registers into parts that fit. Each part
 stands between shift registers. Yosys synthesises it with products in logic, and nextpnr places and
-routes it, with the first seed that ends. Numbers are for columns of up to 4096 cells. A part that does not fit is
-placed in its own parts. LUT4 and registers count the shift registers, too.
+routes it, with up to three seeds where the first is below 80 MHz. Numbers are for columns of up to
+4096 cells. A part that does not fit is placed in its own parts. LUT4 and registers count the shift
+registers, too.
 
 Run it yourself: `python3 tests/rtl/clocks/run.py`. It wants Debian's `yosys` and `nextpnr-ice40`.
 """
@@ -88,9 +90,9 @@ def yosys(script):
 def ports_of(part, folder):
     """Name, direction and width of each port."""
     ports = folder / "ports.json"
-    parameters = "".join(f" -chparam {key} {value}" for key, value in part.get("with", {}).items())
+    parameters = "".join(f"chparam -set {key} {value} {part['part']}; " for key, value in part.get("with", {}).items())
     files = " ".join(map(str, sources_of(part)))
-    yosys(f"read_verilog -sv {files}; hierarchy -top {part['part']}{parameters}; proc; write_json {ports}")
+    yosys(f"read_verilog -sv {files}; {parameters}hierarchy -top {part['part']}; proc; write_json {ports}")
     modules = json.loads(ports.read_text())["modules"]
     top = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))
     return [(name, port["direction"], len(port["bits"])) for name, port in top["ports"].items()]
@@ -142,18 +144,24 @@ def measured(part):
 
 
 def placed(net):
-    """The seed and the MHz; no MHz if it does not fit."""
+    """The best seed and its MHz; no MHz if it does not fit."""
+    found = []
     for seed in SEEDS:
         code, text = run(["nextpnr-ice40", "--hx8k", "--package", "ct256", "--json", str(net), "--seed", str(seed), "--freq", "100",
                           "--timing-allow-fail", "--pcf-allow-unconstrained"], SECONDS)
         clocks = re.findall(r"Max frequency for clock\s+'[^']*': ([\d.]+) MHz", text)
-        if code == 0:
-            return {"seed": seed, "mhz": float(clocks[-1])}
-        if re.search(r"(?i)unable to (place|find)|no Bels remaining|failed to (place|expand)", text):
+        if code > 0 and re.search(r"(?i)unable to (place|find)|no Bels remaining|failed to (place|expand)", text):
             return {"seed": seed, "mhz": None}
         if code > 0:
             raise RuntimeError(text.strip().splitlines()[-1])
-    raise RuntimeError(f"nextpnr does not end in {SECONDS} s with any of {len(SEEDS)} seeds")
+        if code == 0:
+            found.append((float(clocks[-1]), seed))
+        if found and max(found)[0] >= WANTED:
+            break
+    if not found:
+        raise RuntimeError(f"nextpnr does not end in {SECONDS} s with any of {len(SEEDS)} seeds")
+    mhz, seed = max(found)
+    return {"seed": seed, "mhz": mhz}
 
 
 def page(parts, results):
@@ -168,7 +176,7 @@ def page(parts, results):
         slowest += [(found["mhz"], name)] if found.get("mhz") else []
     if slowest:
         lines += ["", f"The slowest is `{min(slowest)[1]}`. Of {len(slowest)} that are placed, "
-                  f"{sum(mhz >= 80 for mhz, _ in slowest)} reach 80 MHz."]
+                  f"{sum(mhz >= WANTED for mhz, _ in slowest)} reach {WANTED} MHz."]
     return "\n".join(lines) + "\n"
 
 
