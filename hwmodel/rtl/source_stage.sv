@@ -35,14 +35,14 @@ module source_stage #(
       .move(move), .here(here), .overlaps(overlaps), .came(came), .left(left), .step_came(step_came),
       .step_left(step_left), .fill(fill), .drained(drained));
 
-  // The dither of a mixture in opening i is wanted 7 + 25 i + 4 moves after its cell came.
+  // The dither of a mixture in opening i is wanted 7 + 26 i + 5 moves after its cell came.
   logic [15:0] dither;
   dither_unit reverse (.step(step_came), .dither(dither));
   logic [(N+1)*16-1:0] dithers;
-  delay #(.WIDTH(16), .N(11)) first_dither (.clk(clk), .en(move), .d(dither), .q(dithers[15:0]));
+  delay #(.WIDTH(16), .N(12)) first_dither (.clk(clk), .en(move), .d(dither), .q(dithers[15:0]));
   logic [N-1:0] open;  // of the step of the token that comes
   for (genvar i = 0; i < N; i++) begin : steps
-    delay #(.WIDTH(16), .N(25)) dither_of (
+    delay #(.WIDTH(16), .N(26)) dither_of (
         .clk(clk), .en(move), .d(dithers[i*16+:16]), .q(dithers[(i+1)*16+:16]));
     assign open[i] = (step_came >= openings[i*199+135+:32]) & (step_came < openings[i*199+167+:32]);
   end
@@ -65,16 +65,16 @@ module source_stage #(
       if (i == 0) begin : first
         assign covers = inside_ball & open7;
       end else begin : later
-        delay #(.WIDTH(1), .N(25 * i)) its_turn (.clk(clk), .en(move), .d(inside_ball & open7), .q(covers));
+        delay #(.WIDTH(1), .N(26 * i)) its_turn (.clk(clk), .en(move), .d(inside_ball & open7), .q(covers));
       end
       opening_lane #(.VENT(i < VENTS ? 1 : 0)) opening (
           .clk(clk), .move(move), .stored(words[i*50+:50]), .covers(covers), .rate(openings[AT+90+:16]),
           .temperature(openings[AT+106+:16]), .energy(openings[AT+122+:13]), .hot(hot),
-          .dither4(dithers[i*16+:16]), .treated(words[(i+1)*50+:50]));
+          .dither5(dithers[i*16+:16]), .treated(words[(i+1)*50+:50]));
     end
 
     logic at_edge;
-    delay #(.WIDTH(1), .N(25 * N + 7)) edges (
+    delay #(.WIDTH(1), .N(26 * N + 7)) edges (
         .clk(clk), .en(move), .d(open_border & (edge_z | (x == 12'd0) | (x == last_x))), .q(at_edge));
     wire [49:0] whole = words[N*50+:50];
     wire empty = ~whole[1] & (at_edge | (whole[17:2] == 16'd0));

@@ -44,7 +44,7 @@ int registers_of(StageKind kind, const Design& design) {
     case walls:
       return 1;
     case source:
-      return 8 + 25 * (openings.vents + openings.drains);
+      return 8 + kOpeningRegisters * (openings.vents + openings.drains);
     case conduction:
     case convection:
       return 7;

@@ -22,6 +22,8 @@ Lag lag_of(StageKind kind, const Design& design);
 // Returns the registers that the circuit of a stage has beyond its lag, in tokens (hwmodel/rtl). It is 0 for
 // a stage that is not written in SystemVerilog, and in a design without them.
 int registers_of(StageKind kind, const Design& design);
+// A vent or a drain has so many of them.
+inline constexpr int kOpeningRegisters = 26;
 // Returns how many vents and drains the circuit of stage source has room for.
 struct Openings {
   int vents, drains;

@@ -87,7 +87,7 @@ class Ports {
   // An opening that is not there never opens.
   void add_source() {
     constexpr std::size_t kBits = 199;
-    add("lag", 8 + 25 * static_cast<std::int64_t>(sizes_.vents + sizes_.drains));
+    add("lag", 8 + kOpeningRegisters * static_cast<std::int64_t>(sizes_.vents + sizes_.drains));
     add("last_x", design_.shape.grid.x - 1);
     add("open_border", p_.open_border ? 1 : 0);
     add("hot", design_.hot() ? 1 : 0);
