@@ -12,7 +12,8 @@ fi
 command -v ffmpeg > /dev/null || echo "Without ffmpeg the film is WebP, not MP4: apt-get install ffmpeg" >&2
 cmake/install-dependencies.sh build
 cmake --preset first > build/configure.log || { cat build/configure.log; exit 1; }
-cmake --build --preset first
+case "$*" in *vdb*) targets="voxmelt voxmelt-vdb" ;; *) targets=voxmelt ;; esac  # OpenVDB compiles long
+cmake --build --preset first --target $targets
 
 # Options alone mean the default scene. All but two of them have a value.
 scene=cello before=

@@ -19,6 +19,7 @@
 #include "app/report.h"
 #include "app/run_journal.h"
 #include "app/visibility.h"
+#include "app/written_states.h"
 #include "kernel/run/io/output_folder.h"
 
 namespace voxmelt::app {
@@ -40,6 +41,7 @@ std::string scene_toml(const scene::Scene& scene, const std::string& format, std
 
 int run_export(const ExportOptions& options) {
   surface_named(options.surface, {options.format});
+  check_format(options.format, "--format");
   scene::Scene scene = load_scene(options.common);
   keep_inputs(scene, {{"--out", options.out}, {"--report", options.common.report}});
   check_report_place(options.common, options.out);

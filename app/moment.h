@@ -10,6 +10,7 @@ inline io::Moment moment_of(const run::Simulation& simulation) {
   io::Moment moment(simulation.volume());
   moment.ledger = &simulation.ledger();
   moment.step = simulation.steps_done();
+  moment.parameters = &simulation.parameters();
   return moment;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "kernel/engine/cpu/instruction_set.h"
+#include "kernel/run/io/vdb.h"
 #include "kernel/scene/shape/heightfield.h"
 #include "render/frames/webp_bytes.h"
 #include "render/image/video.h"
@@ -33,11 +34,13 @@ std::string instruction_sets() {
 std::string version_number() { return VOXMELT_VERSION; }
 
 std::string version_text() {
-  return fmt::format("voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}\nlibtiff: {}",
-                     version_number(), compiler(), instruction_sets(),
-                     render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)",
-                     render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)",
-                     scene::tiff_is_built_in() ? "built in (GeoTIFF)" : "not built in (no GeoTIFF)");
+  return fmt::format(
+      "voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}\nlibtiff: {}\nOpenVDB: {}",
+      version_number(), compiler(), instruction_sets(),
+      render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)",
+      render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)",
+      scene::tiff_is_built_in() ? "built in (GeoTIFF)" : "not built in (no GeoTIFF)",
+      io::missing_for_vdb().empty() ? "found (VDB)" : "not found (no VDB)");
 }
 
 }  // namespace voxmelt::app

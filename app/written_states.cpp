@@ -93,6 +93,12 @@ std::string format_list() {
   return list;
 }
 
+void check_format(const std::string& name, const std::string& option) {
+  const io::Format* const format = io::find_format(name);
+  const std::string missing = format != nullptr && format->missing != nullptr ? format->missing() : "";
+  if (!missing.empty()) throw UsageError(fmt::format("{} {}: error: {}", option, name, missing));
+}
+
 std::vector<std::string> formats_named(const std::string& list) {
   std::vector<std::string> names;
   if (list.empty()) return names;
@@ -105,6 +111,7 @@ std::vector<std::string> formats_named(const std::string& list) {
       throw UsageError(fmt::format("--write {}: error: '{}' is not one of {}", list, name, known));
     if (std::ranges::find(names, name) != names.end())
       throw UsageError(fmt::format("--write {}: error: {} comes twice", list, name));
+    check_format(name, "--write");
     names.push_back(name);
   }
   return names;

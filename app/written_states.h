@@ -18,6 +18,8 @@ namespace voxmelt::app {
 // Returns the names of formats that --write lists. Throws UsageError for others, and for one that comes
 // twice.
 std::vector<std::string> formats_named(const std::string& list);
+// Throws UsageError if this machine lacks something that a format needs.
+void check_format(const std::string& name, const std::string& option);
 // Returns "npy: NumPy arrays; vti: ...", for the help of a command.
 std::string format_list();
 

@@ -48,6 +48,16 @@ endif()
 find_package(CLI11 REQUIRED)
 find_package(benchmark REQUIRED)
 
+# OpenVDB, of the program voxmelt-vdb alone. Its CMake modules ask for what we do not need.
+find_path(OPENVDB_INCLUDE openvdb/openvdb.h)
+find_library(OPENVDB_LIBRARY openvdb)
+find_library(IMATH_LIBRARY NAMES Imath-3_1 Imath)
+if(OPENVDB_INCLUDE AND OPENVDB_LIBRARY AND IMATH_LIBRARY)
+  set(OPENVDB_FOUND ON)
+else()
+  message(STATUS "no OpenVDB: .vdb files are neither read nor written (apt-get install libopenvdb-dev)")
+endif()
+
 # The two libraries of `voxmelt view`. Without them the rest is as ever.
 find_package(Boost 1.74 QUIET)
 find_package(JPEG QUIET)

@@ -168,6 +168,7 @@ void Simulation::export_state(const std::filesystem::path& folder, const std::st
     io::Moment moment(simulation.volume());
     moment.ledger = &simulation.ledger();
     moment.step = simulation.steps_done();
+    moment.parameters = &simulation.parameters();
     chosen.write(moment, out.partial(), {});
     io::write_file(
         out.partial() / "parameters.json",

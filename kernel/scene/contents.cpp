@@ -136,7 +136,7 @@ Contents read_contents(Reader& root, state::Grid grid, const rule::Parameters& p
         if (shape == "mesh")
           read_mesh_entry(reader, grid, entry);
         else if (shape == "volume")
-          read_volume_entry(reader, grid, entry);
+          read_volume_entry(reader, grid, entry, warnings);
         else
           entry.shape = read_shape(reader, shape);
         contents.entries.push_back(std::move(entry));

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -113,12 +113,13 @@ Coverage cover(const Voxels& voxels, Point at, double scale, state::Grid grid) {
   return coverage;
 }
 
-// Reads which numbers fill a voxel: those from the first one to the second.
-std::function<bool(double)> read_filled(Reader& reader) {
+// Reads which numbers fill a voxel.
+Filled read_filled(Reader& reader) {
+  const bool is_default = !reader.has("filled");
   const auto [low, high] =
       reader.vector<2>("filled", within(kLargestNumber), std::array{0.5, kLargestNumber});
   if (low > high) reader.fail("filled", fmt::format(" = [{}, {}] is no range", low, high));
-  return [low = low, high = high](double value) { return low <= value && value <= high; };
+  return {low, high, is_default};
 }
 
 // Reads what a header would say, of a file that has none.
@@ -142,15 +143,18 @@ std::optional<RawNumbers> read_raw_header(Reader& reader) {
 
 }  // namespace
 
-void read_volume_entry(Reader& reader, state::Grid grid, Entry& entry) {
+void read_volume_entry(Reader& reader, state::Grid grid, Entry& entry, std::vector<std::string>& warnings) {
   VoxelSource source;
   source.file = reader.file("file");
   source.place = reader.place("file");
-  if (reader.has("array")) source.array = reader.text("array");
+  if (reader.has("array") && reader.has("part")) reader.fail("part", " and array exclude each other");
+  for (const char* const key : {"array", "part"})
+    if (reader.has(key)) source.array = reader.text(key);
   source.is_filled = read_filled(reader);
   source.raw = read_raw_header(reader);
   const bool z_is_up = reader.choice("up", {"y", "z"}, 0) == 1;
   Voxels voxels = read_voxels(source);
+  if (!voxels.note.empty()) warnings.push_back(voxels.note);
   if (z_is_up) turn_up(voxels);
   const Box box = box_of(voxels, source);
   const double metre = read_unit(reader);
@@ -165,8 +169,7 @@ void read_volume_entry(Reader& reader, state::Grid grid, Entry& entry) {
 }
 
 Point size_of_volume(const std::filesystem::path& file, const Place& place) {
-  const VoxelSource source{
-      file, place, {}, [](double value) { return 0.5 <= value && value <= kLargestNumber; }};
+  const VoxelSource source{file, place, {}};
   const Box box = box_of(read_voxels(source), source);
   return box.high - box.low;
 }

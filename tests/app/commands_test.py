@@ -377,6 +377,8 @@ class Commands(unittest.TestCase):
         formats = re.search(r"--format TEXT:\{([\w,]+)\}", help_text)[1].split(",")
         self.assertEqual(formats[:2], ["npy", "vti"])
         for name in formats:
+            if name == "vdb" and "OpenVDB: found" not in self.good("--version"):
+                continue
             self.good("export", self.scene, "--out", f"all_{name}", "--format", name)
             written = {path.name for path in (self.folder / f"all_{name}").iterdir()}
             self.assertGreater(len(written - {"parameters.json", "fields.json", "scene.toml"}), 0, name)

@@ -44,7 +44,8 @@ with tempfile.TemporaryDirectory() as folder:
     scene.write_text(SCENE)
     run = peak("digest", str(scene), "--steps", "1")
     problems = []
-    for form in ("npy", "vti", "npz", "ply"):
+    vdb = ["vdb"] if "OpenVDB: found" in subprocess.run([sys.argv[1], "--version"], capture_output=True, text=True).stdout else []
+    for form in ["npy", "vti", "npz", "ply", *vdb]:
         out = Path(folder) / form
         above = peak("export", str(scene), "--steps", "1", "--format", form, "--out", str(out)) - run
         written = 0
@@ -53,7 +54,7 @@ with tempfile.TemporaryDirectory() as folder:
             file.unlink()
         print(f"{form}: {written >> 20} MiB written, {above >> 10} MiB above the run's {run >> 10} MiB")
         fields = CELLS * 9  # three masks and three numbers; an image has them packed
-        least, most = {"vti": (fields // 2000, fields // 100), "ply": (1, fields // 100)}.get(form, (fields, fields + (1 << 20)))
+        least, most = {"vti": (fields // 2000, fields // 100), "ply": (1, fields // 100), "vdb": (1, 1 << 20)}.get(form, (fields, fields + (1 << 20)))
         if above > MOST or not least <= written <= most:
             problems.append(f"{form}: at most {MOST >> 10} MiB of memory, {least} to {most} bytes written")
     checkpoint = checkpoint_of(scene, Path(folder) / "out")

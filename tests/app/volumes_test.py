@@ -193,7 +193,7 @@ BAD = {
     "nodes.vox": (vox(more=chunk(b"nGRP", struct.pack("<3i", 0, 0, 1 << 30))), "a node of its scene has 1073741824 parts in 0 bytes"),
     "none.vox": (b"VOX \x96\0\0\0" + chunk(b"MAIN", b""), "it has no model"),
     "air.vox": (vox(voxels=[]), "no number is within `filled`"),
-    "a.tiff": (b"II*\0", "volumes are read from .npy, .npz, .nrrd, .nhdr, .mha, .mhd, .vox, not from '.tiff'; numbers without a header want `raw`"),
+    "a.tiff": (b"II*\0", "volumes are read from .npy, .npz, .nrrd, .nhdr, .mha, .mhd, .vox, .vdb, not from '.tiff'; numbers without a header want `raw`"),
 }
 
 

@@ -181,7 +181,7 @@ class Write(unittest.TestCase):
         self.assertEqual(listed, [str(step) for step in [*range(0, 1951, 50), 1960]])
 
     def test_mistakes_are_said(self):
-        for options, said in ((["--write", "tiff"], "--write tiff: error: 'tiff' is not one of npy, vti, nrrd, npz, ply, glb, stl, obj, csv"),
+        for options, said in ((["--write", "tiff"], "--write tiff: error: 'tiff' is not one of npy, vti, nrrd, vdb, npz, ply, glb, stl, obj, csv"),
                               (["--write", "npy,,csv"], "--write npy,,csv: error: '' is not one of"),
                               (["--write", "csv,npy,csv"], "csv comes twice"),
                               (["--write-every", 3], "--write-every 3: error: --write says what is written"),

@@ -9,6 +9,7 @@
 #include "kernel/run/io/file_writer.h"
 #include "kernel/run/io/npz.h"
 #include "kernel/run/io/surface_files.h"
+#include "kernel/run/io/vdb.h"
 #include "kernel/run/io/vti.h"
 
 namespace voxmelt::io {
@@ -41,6 +42,7 @@ constexpr std::array kFormats{
     Format{"npy", "NumPy arrays (z, y, x)", export_arrays},
     Format{"vti", "one VTK image", export_vti},
     Format{"nrrd", "NRRD, for teem and 3D Slicer", export_nrrd},
+    Format{"vdb", "OpenVDB, for Blender and Houdini", export_vdb, false, missing_for_vdb},
     Format{"npz", "NumPy arrays in one file", export_npz},
     Format{"ply", "the surface, with heat and material", export_ply, true},
     Format{"glb", "the same for viewers", export_glb, true},

@@ -28,9 +28,10 @@ struct Moment {
   Moment(const state::Volume& v) : volume(v) {}  // NOLINT: a volume is a moment
   const state::Volume& volume;
   const state::Ledger* ledger = nullptr;
-  std::uint32_t step = 0;       // steps done
-  double seconds_per_step = 0;  // of the steps before it
-  Lattice surface;              // what formats of meshes draw
+  std::uint32_t step = 0;                        // steps done
+  double seconds_per_step = 0;                   // of the steps before it
+  const rule::Parameters* parameters = nullptr;  // null: they are not known
+  Lattice surface;                               // what formats of meshes draw
 };
 
 // Describes a format for the fields of a state. `write` makes files in an existing folder, and throws
@@ -40,6 +41,8 @@ struct Format {
   std::string_view description;  // a few words
   void (*write)(const Moment& moment, const std::filesystem::path& folder, const Poll& poll);
   bool of_surface = false;  // it is one of meshes
+  std::string (*missing)() =
+      nullptr;  // says what it lacks on this machine; nothing, or empty: it lacks nothing
 };
 
 std::span<const Format> formats();                 // all of them; the first one is the default

@@ -19,6 +19,7 @@ Voxels read_npz_voxels(std::string_view bytes, const VoxelSource& source);
 Voxels read_nrrd_voxels(std::string_view bytes, const VoxelSource& source);
 Voxels read_meta_image_voxels(std::string_view bytes, const VoxelSource& source);
 Voxels read_magica_voxels(std::string_view bytes, const VoxelSource& source);
+Voxels read_vdb_voxels(std::string_view bytes, const VoxelSource& source);
 
 // A block of numbers of one type. A step is counted in numbers.
 struct NumberBlock {

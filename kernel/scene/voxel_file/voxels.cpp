@@ -24,7 +24,7 @@ constexpr std::array kVoxelFormats{
     VoxelFormat{".npy", read_npy_voxels},        VoxelFormat{".npz", read_npz_voxels},
     VoxelFormat{".nrrd", read_nrrd_voxels},      VoxelFormat{".nhdr", read_nrrd_voxels},
     VoxelFormat{".mha", read_meta_image_voxels}, VoxelFormat{".mhd", read_meta_image_voxels},
-    VoxelFormat{".vox", read_magica_voxels}};
+    VoxelFormat{".vox", read_magica_voxels},     VoxelFormat{".vdb", read_vdb_voxels}};
 
 // Returns the format, or null.
 const VoxelFormat* format_of(const std::filesystem::path& file) {

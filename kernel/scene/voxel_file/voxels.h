@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +18,14 @@ struct Voxels {
   std::array<int, 3> size{};               // along x, y and z
   std::array<double, 3> spacing{1, 1, 1};  // sides of a voxel, in the unit of the file
   std::vector<std::uint8_t> filled;        // 0 or 1; x runs fastest, then y
+  std::string note;                        // what is odd but usable; mostly empty
+};
+
+// Says of what number a voxel is filled: from the first one to the second.
+struct Filled {
+  double low = 0.5, high = 1e15;
+  bool is_default = true;  // nobody has asked for these; a level set is filled where it is negative then
+  bool operator()(double value) const { return low <= value && value <= high; }
 };
 
 // Names the types of numbers, in the order of NumberBlock::Type.
@@ -38,8 +45,8 @@ struct RawNumbers {
 struct VoxelSource {
   std::filesystem::path file;
   Place place;        // for messages
-  std::string array;  // of a file of several; empty if none is named
-  std::function<bool(double)> is_filled;
+  std::string array;  // or grid, of a file of several; empty if none is named
+  Filled is_filled{};
   std::optional<RawNumbers> raw{};  // the file is these, whatever its name
 
   [[noreturn]] void fail(const std::string& message) const;

@@ -171,6 +171,7 @@ TEST_F(Export, EveryFormatHasANameOfItsOwnAndWrites) {
     EXPECT_TRUE(all.emplace(format.name).second) << format.name << " is there twice";
     EXPECT_EQ(find_format(format.name), &format);
     EXPECT_FALSE(format.description.empty()) << format.name;
+    if (format.missing != nullptr && !format.missing().empty()) continue;  // of another program
     const fs::path folder = folder_ / std::string(format.name);
     fs::create_directories(folder);
     format.write(sample(), folder, {});

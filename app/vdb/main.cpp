@@ -1,0 +1,251 @@
+// The program voxmelt-vdb reads and writes files of OpenVDB for voxmelt. kernel/vdb/stream.h says what it is
+// given and gives. A file can be hostile, so time and memory are bounded before it is opened.
+#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <ios>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/vdb/archives.h"
+#include "app/vdb/bounds.h"
+#include "kernel/vdb/stream.h"
+
+namespace voxmelt::vdb {
+namespace {
+
+constexpr int kMostVoxels = 4096;                             // along a side
+constexpr std::uint64_t kMostInAll = std::uint64_t{1} << 30;  // voxels
+constexpr std::uint64_t kRoom = std::uint64_t{128} << 20;     // bytes of memory, whatever the file
+constexpr std::uint64_t kTimes = 48;  // as many for a byte of the file: a packed inner node has some 40
+constexpr std::uint64_t kBytesPerSecond = 8 << 20;
+constexpr rlim_t kMostSeconds = 3600;
+
+// --- write -------------------------------------------------------------------------------------------------
+
+std::uint64_t identity_of(std::uint64_t before, const void* bytes, std::size_t count) {
+  for (std::size_t i = 0; i + 8 <= count; i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, static_cast<const char*>(bytes) + i, 8);
+    before = (before ^ word) * 0x100000001B3ULL;
+    before ^= before >> 29;
+  }
+  return before;
+}
+
+void add(openvdb::FloatTree& tree, const BrickRecord& brick, float unit) {
+  auto leaf = std::make_unique<openvdb::FloatTree::LeafNodeType>(
+      openvdb::Coord(brick.at[0], brick.at[1], brick.at[2]), 0.0F);
+  for (openvdb::Index i = 0; i < kCells; ++i)
+    if ((brick.active[i / 64] >> (i % 64) & 1) != 0)
+      leaf->setValueOn(i, static_cast<float>(brick.numbers[i]) / unit);
+  tree.addLeaf(leaf.release());
+}
+
+openvdb::FloatGrid::Ptr grid_of(const GridRecord& record) {
+  auto grid = openvdb::FloatGrid::create(0.0F);
+  grid->setName(record.name.data());
+  grid->setGridClass(record.is_fog != 0 ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
+  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+  transform->postTranslate(openvdb::Vec3d(0.5));  // a voxel lies around its middle, and cell 0 from 0 to 1
+  grid->setTransform(transform);
+  return grid;
+}
+
+void write(const std::string& place, std::int32_t step, std::int32_t grids) {
+  OneByOne file(place);
+  openvdb::MetaMap metadata;
+  metadata.insertMeta("creator", openvdb::StringMetadata("voxmelt"));
+  metadata.insertMeta("step", openvdb::Int32Metadata(step));
+  file.begin(metadata, grids);
+  std::uint64_t identity = static_cast<std::uint64_t>(step) + 0xCBF29CE484222325ULL;
+  openvdb::FloatGrid::Ptr grid;
+  float unit = 1;
+  const auto complete = [&] {
+    if (!grid) return;
+    grid->tree().prune();  // equal tiles become larger ones
+    file.add(grid);
+    grid.reset();
+  };
+  for (;;) {
+    Record kind{};
+    take(kind);
+    if (kind == Record::grid) {
+      complete();
+      GridRecord record;
+      take(record);
+      identity = identity_of(identity, &record, sizeof record);
+      grid = grid_of(record);
+      unit = static_cast<float>(record.unit);
+    } else if (kind == Record::brick && grid) {
+      BrickRecord brick;
+      take(brick);
+      identity = identity_of(identity, &brick, sizeof brick);
+      add(grid->tree(), brick, unit);
+    } else if (kind == Record::tile && grid) {
+      TileRecord tile;
+      take(tile);
+      identity = identity_of(identity, &tile, sizeof tile);
+      grid->tree().addTile(1, openvdb::Coord(tile.at[0], tile.at[1], tile.at[2]),
+                           static_cast<float>(tile.number) / unit, true);
+    } else if (kind == Record::end) {
+      complete();
+      file.end(identity);
+      return give("ok\n");
+    } else {
+      throw std::runtime_error("the input is no record");
+    }
+  }
+}
+
+// --- read --------------------------------------------------------------------------------------------------
+
+struct Wanted {
+  std::string grid;
+  bool is_default = true;  // inside of a level set, or at least half of a fog
+  double low = 0.5, high = 1e15;
+};
+
+// Returns the sides of a voxel, negative where the grid is mirrored.
+openvdb::Vec3d sides_of(const openvdb::GridBase& grid) {
+  const auto fail = [] {
+    throw std::runtime_error("its voxels are turned, or no boxes; resample it to a grid along the axes");
+  };
+  if (!grid.transform().isLinear()) fail();
+  const openvdb::Mat4d matrix = grid.transform().baseMap()->getAffineMap()->getMat4();
+  openvdb::Vec3d sides;
+  for (int i = 0; i < 3; ++i) sides[i] = matrix(i, i);
+  const double least = std::min({std::abs(sides[0]), std::abs(sides[1]), std::abs(sides[2])});
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != j && !(std::abs(matrix(i, j)) <= 1e-6 * least)) fail();
+  return sides;
+}
+
+template <class Grid>
+void give_voxels(const Grid& grid, const Wanted& wanted, const std::string& others) {
+  const openvdb::Vec3d sides = sides_of(grid);
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  if (box.empty()) throw std::runtime_error("the grid '" + plain(grid.getName()) + "' has no active voxel");
+  std::array<std::int64_t, 3> size{};
+  std::uint64_t voxels = 1;
+  for (int i = 0; i < 3; ++i) {
+    size[i] = std::int64_t{box.max()[i]} - box.min()[i] + 1;
+    if (size[i] > kMostVoxels)
+      throw std::runtime_error("a side of " + std::to_string(size[i]) + " voxels; 1 to " +
+                               std::to_string(kMostVoxels) + " are read");
+    voxels *= static_cast<std::uint64_t>(size[i]);
+  }
+  if (voxels > kMostInAll)
+    throw std::runtime_error(std::to_string(voxels) + " voxels; at most " + std::to_string(kMostInAll) +
+                             " are read");
+  std::array<char, 256> head{};
+  std::snprintf(head.data(), head.size(), "ok %d %d %d %.17g %.17g %.17g\n", static_cast<int>(size[0]),
+                static_cast<int>(size[1]), static_cast<int>(size[2]), std::abs(sides[0]), std::abs(sides[1]),
+                std::abs(sides[2]));
+  give(head.data() + plain(grid.getName()) + "\n" + others + "\n");
+
+  const bool is_inside = wanted.is_default && grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  const double low = is_inside ? -1e15 : wanted.low, high = is_inside ? 0 : wanted.high;
+  const auto place = [&](std::int64_t at, int axis) {  // from below, also where the grid is mirrored
+    return static_cast<int>(sides[axis] < 0 ? box.max()[axis] - at : box.min()[axis] + at);
+  };
+  const auto values = grid.getConstAccessor();
+  std::string row(static_cast<std::size_t>(size[0]), '\0');
+  for (std::int64_t z = 0; z < size[2]; ++z)
+    for (std::int64_t y = 0; y < size[1]; ++y) {
+      for (std::int64_t x = 0; x < size[0]; ++x) {
+        const auto value = static_cast<double>(values.getValue({place(x, 0), place(y, 1), place(z, 2)}));
+        row[static_cast<std::size_t>(x)] = low <= value && value <= high ? 1 : 0;
+      }
+      give(row);
+    }
+}
+
+void read(const std::string& place, const Wanted& wanted) {
+  using Numbers = openvdb::NumericGridTypes::Append<openvdb::BoolGrid, openvdb::MaskGrid>;
+  const std::uint64_t bytes = std::filesystem::file_size(place);
+  bound(RLIMIT_AS, room_in_use() + kRoom + kTimes * bytes);
+  bound(RLIMIT_CORE, 0);
+  bound(RLIMIT_CPU, 1 + bytes / kBytesPerSecond);
+  std::vector<std::string> names;
+  const openvdb::GridBase::Ptr grid = Source(place).find(wanted.grid, names);
+  bound(RLIMIT_CPU, kMostSeconds);  // what follows takes as long as the grid is large
+  std::string listed;
+  for (const std::string& name : names) listed += (listed.empty() ? "'" : ", '") + plain(name) + "'";
+  if (names.empty()) throw std::runtime_error("it has no grids");
+  if (!grid) throw std::runtime_error("it has no grid '" + plain(wanted.grid) + "'; its grids are " + listed);
+  const std::string others = wanted.grid.empty() && names.size() > 1 ? listed : "";
+  const auto give_it = [&](const auto& typed) { give_voxels(typed, wanted, others); };
+  if (!grid->apply<Numbers>(give_it))
+    throw std::runtime_error("the grid '" + plain(grid->getName()) + "' has values of the type " +
+                             plain(grid->valueType()) + ", not numbers; its grids are " + listed);
+}
+
+template <class Number>
+Number number_in(const std::string& word) {
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || *end != 0) throw std::runtime_error(plain(word) + " is no number");
+  return number;
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string usage = "voxmelt calls it: `voxmelt export --format vdb`";
+  if (words.size() < 2) throw std::runtime_error(usage);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  openvdb::initialize();
+  if (words[1] == "write" && words.size() == 5) {
+    write(words[2], number_in<std::int32_t>(words[3]), number_in<std::int32_t>(words[4]));
+  } else if (words[1] == "read" && words.size() == 6) {
+    Wanted wanted{words[3]};
+    wanted.is_default = words[4].empty();
+    if (!wanted.is_default) {
+      wanted.low = number_in<double>(words[4]);
+      wanted.high = number_in<double>(words[5]);
+    }
+    read(words[2], wanted);
+  } else {
+    throw std::runtime_error(usage);
+  }
+  return std::fflush(output()) == 0 ? 0 : 3;
+}
+
+}  // namespace
+}  // namespace voxmelt::vdb
+
+int main(int argc, char** argv) {
+  using namespace voxmelt::vdb;
+  output();  // from now on, what OpenVDB has to say goes elsewhere
+  try {
+    return run({argv, argv + argc});
+  } catch (const std::ios_base::failure&) {
+    const int why = errno;
+    const bool is_full = why == ENOSPC || why == EDQUOT || why == EFBIG;
+    const bool is_read = argc > 1 && argv[1] == std::string("read");
+    give(is_read ? "error it ends too early: is it truncated?\n"
+                 : (is_full ? "full " : "error ") + std::string(std::strerror(why)) + "\n");
+  } catch (const std::bad_alloc&) {
+    give("error OpenVDB wants more memory than a file of this size should take\n");
+  } catch (const std::exception& error) {
+    give("error " + plain(error.what()) + "\n");
+  }
+  std::fflush(output());
+  return 0;
+}
