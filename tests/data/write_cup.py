@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the cup of the tests: as OBJ and MagicaVoxel by itself, and in the other formats by programs that are not ours.
 
-  write_cup.py        in tests/data, with Debian's package assimp-utils
+  write_cup.py        in tests/data, with Debian's packages assimp-utils and python3-openvdb
 
 All coordinates are multiples of 1/16 and have at most five digits, so that no format rounds them. z points up in
 STL, as it does in models for printing; in the others y does.
@@ -71,8 +71,8 @@ def crossings(vertices, faces, x, z):
     return sorted(found)
 
 
-def vox(vertices, faces, side=96):
-    """MagicaVoxel's file: a voxel is filled if the surface winds around its middle. z points up."""
+def voxels_of(vertices, faces, side=96):
+    """A voxel is filled if the surface winds around its middle. y points up."""
     low, high = ([end(v[axis] for v in vertices) for axis in range(3)] for end in (min, max))
     to_unit = side / max(h - l for l, h in zip(low, high))  # a voxel is a cell, where the cup has no scene
     nx, ny, nz = (math.ceil((h - l) * to_unit) for l, h in zip(low, high))
@@ -83,10 +83,25 @@ def vox(vertices, faces, side=96):
             found = crossings(vertices, faces, low[0] + (i + 0.5003) / to_unit, low[2] + (k + 0.5007) / to_unit)
             for j in range(ny):
                 if sum(way for height, way in found if height < low[1] + (j + 0.5) / to_unit) != 0:
-                    voxels.append(bytes((i, nz - 1 - k, j, 1)))
+                    voxels.append((i, j, k))
+    return (nx, ny, nz), voxels
+
+
+def vox(size, voxels):
+    """MagicaVoxel's file. z points up."""
+    nx, ny, nz = size
+    voxels = [bytes((x, nz - 1 - z, y, 1)) for x, y, z in voxels]
     chunk = lambda name, content, children=b"": name + struct.pack("<II", len(content), len(children)) + content + children
     body = chunk(b"SIZE", struct.pack("<3I", nx, nz, ny)) + chunk(b"XYZI", struct.pack("<I", len(voxels)) + b"".join(voxels))
     return b"VOX " + struct.pack("<I", 150) + chunk(b"MAIN", b"", body)
+
+
+def vdb(voxels, file):
+    """A fog volume of OpenVDB, by the Python of Debian's package."""
+    program = ("import ast, sys, pyopenvdb as v\ngrid = v.FloatGrid()\ngrid.name, grid.gridClass = 'cup', v.GridClass.FOG_VOLUME\n"
+               "values = grid.getAccessor()\nfor at in ast.literal_eval(sys.stdin.read()): values.setValueOn(at, 1.0)\n"
+               "grid.prune()\nv.write(sys.argv[1], grids=[grid])\n")
+    subprocess.run(["/usr/bin/python3", "-c", program, file], input=repr(voxels), text=True, check=True)
 
 
 def main():
@@ -94,7 +109,9 @@ def main():
     folder = Path(__file__).resolve().parent
     text = text_of(vertices, faces)
     (folder / "cup.obj").write_text(text)
-    (folder / "cup.vox").write_bytes(vox(vertices, faces))
+    size, voxels = voxels_of(vertices, faces)
+    (folder / "cup.vox").write_bytes(vox(size, voxels))
+    vdb(voxels, folder / "cup.vdb")
     with tempfile.TemporaryDirectory() as other:
         standing = Path(other) / "cup.obj"
         standing.write_text(text_of([(x, -z, y) for x, y, z in vertices], faces))
