@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Bugs in readers of meshes and volumes, and in writers of states and films: does the test that each names find it?
+"""Bugs in readers of meshes and volumes, in writers of states and films, and in the helper for OpenVDB: does the test that each names find it?
 
     tests/kernel/format_mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
     tests/kernel/format_mutants/run.py           builds and runs each; --only says which
 
-It wants a standing build: cmake --build --preset release --target voxmelt
+It wants a standing build: cmake --build --preset release --target voxmelt voxmelt-vdb
 """
 import argparse
 import pathlib
@@ -18,14 +18,16 @@ sys.path.insert(0, str(HERE.parents[1]))
 
 from overlay import ROOT, Build, Overlay, misfit, run
 
-PROGRAM = "app/voxmelt"
+PROGRAM, HELPER = "app/voxmelt", "app/voxmelt-vdb"
 
 
 def found_by(build, mutant):
     """The first test that fails, or nothing."""
     with tempfile.TemporaryDirectory() as folder:
-        program = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(PROGRAM)
-        code, text = run([sys.executable, f"tests/app/{mutant['test']}_test.py", str(program)], 600)
+        changed = HELPER if mutant["file"].startswith("app/vdb/") else PROGRAM
+        programs = {name: build.folder / name for name in (PROGRAM, HELPER)}
+        programs[changed] = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(changed)
+        code, text = run([sys.executable, f"tests/app/{mutant['test']}_test.py", str(programs[PROGRAM])], 600, {"VOXMELT_VDB": str(programs[HELPER])})
     if code == 0:
         return ""
     first = re.search(r"^(?:FAIL|ERROR): (\w+)", text, re.M)
@@ -43,7 +45,7 @@ def main():
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith(("kernel/scene/", "kernel/run/io/", "render/frames/")))
+    build = Build(options.build, lambda source, *_: source.startswith(("kernel/scene/", "kernel/vdb/", "kernel/run/io/", "render/frames/")))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)
