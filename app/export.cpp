@@ -59,7 +59,7 @@ int run_export(const ExportOptions& options) {
 
   const state::Volume& volume = simulation.volume();
   DrawnSurface surface;
-  io::Moment moment = moment_of(simulation);
+  io::Moment moment = moment_of(simulation, scene);
   if (io::find_format(options.format)->of_surface && options.surface != "cells")
     moment.surface = surface.of(volume, scene, thread_count(options.common));
   io::find_format(options.format)->write(moment, out.partial(), stop_if_interrupted);

@@ -129,7 +129,7 @@ WrittenStates::WrittenStates(const RunRecord& record, fs::path folder, std::uint
 void WrittenStates::add(const run::Simulation& simulation, const scene::Scene& scene) {
   const std::uint32_t step = simulation.steps_done();
   if (!write_is_due(record_, step)) return;
-  io::Moment moment = moment_of(simulation);
+  io::Moment moment = moment_of(simulation, scene);
   const std::chrono::duration<double> passed = Clock::now() - last_;
   if (step > last_step_) moment.seconds_per_step = passed.count() / (step - last_step_);
   if (has(record_, true)) {

@@ -169,6 +169,8 @@ void Simulation::export_state(const std::filesystem::path& folder, const std::st
     moment.ledger = &simulation.ledger();
     moment.step = simulation.steps_done();
     moment.parameters = &simulation.parameters();
+    moment.version = version();
+    moment.scene = parts_->scene().name;
     chosen.write(moment, out.partial(), {});
     io::write_file(
         out.partial() / "parameters.json",

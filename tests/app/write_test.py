@@ -5,6 +5,7 @@
 """
 import csv
 import io
+import json
 import re
 import shutil
 import signal
@@ -129,6 +130,54 @@ class Write(unittest.TestCase):
         said = subprocess.run([VTK, "-c", text], cwd=self.folder, capture_output=True, text=True, check=True).stdout.split("\n")
         self.assertEqual(said[0], "20.0 13 11 13")
         self.assertEqual(set(said[1:-1]), {f"{name} True" for name in FIELDS})
+
+    @unittest.skipUnless(VTK, "no VTK here: apt-get install python3-vtk9")
+    def test_vtk_reads_the_parameters(self):
+        """All of parameters.json, and where it comes from. A second, plain way: each number by its path."""
+        more = ('[heat.air]\nexchange = 0.01\nbottom = 0.25\ntop = 0.5\n[[vent]]\nat = [4, 8, 6]\nradius = 1\nrate = 0.125\n'
+                '[[heat_source]]\nkind = "sphere"\nkeyframes = [{ step = 0, at = [14, 12, 1], radius = 2, power = 3 }, { step = 9, at = [1, 2, 3], radius = 1, power = 4.5 }]\n')
+        write(self.folder, SCENE.replace("[flow]", more + "[flow]"), "much_heat.toml")
+        self.good("export", "much_heat.toml", "--steps", 20, "--format", "vti", "--out", "e", "--set", f"run.seed={2**63 - 1}")
+        text = ("import sys, json, vtk\n"
+                "r = vtk.vtkXMLImageDataReader(); r.SetFileName('e/volume.vti'); r.Update(); f = r.GetOutput().GetFieldData()\n"
+                "out = {}\n"
+                "for i in range(f.GetNumberOfArrays()):\n"
+                "    a = f.GetAbstractArray(i); n = a.GetNumberOfComponents()\n"
+                "    out[a.GetName()] = [a.GetDataTypeAsString(), n, [str(a.GetVariantValue(k).ToString()) for k in range(a.GetNumberOfValues())]]\n"
+                "print(json.dumps(out))\n")
+        held = json.loads(subprocess.run([VTK, "-c", text], cwd=self.folder, capture_output=True, text=True, check=True).stdout)
+        self.assertEqual(held.pop("TimeValue"), ["double", 1, ["20"]])
+        self.assertEqual(held.pop("scene"), ["string", 1, ["much_heat"]])
+        version = self.good("--version").split()[1]
+        self.assertEqual(held.pop("version"), ["string", 1, [version]])
+
+        told = json.loads((self.folder / "e/parameters.json").read_text())
+        del told["grid"], told["step"]
+        numbers = lambda value: [part for one in value for part in numbers(one)] if isinstance(value, list) else [str(int(value))]
+        sources = told["heat"].pop("sources")
+        vents = told.pop("vents")
+        wanted = {f"vents.{key}": (3 if key == "at" else 1, numbers([vent[key] for vent in vents])) for key in vents[0]}
+        self.assertEqual((len(vents), len(sources)), (2, 2))
+        for i, source in enumerate(sources):
+            if "kind" in source:
+                wanted[f"heat.sources.{i}.kind"] = (1, [source["kind"]])
+            for key in source["keys"][0]:
+                wanted[f"heat.sources.{i}.keys.{key}"] = (3 if key == "at" else 1, numbers([one[key] for one in source["keys"]]))
+
+        def leaves(value, path):
+            if isinstance(value, dict):
+                for key, member in value.items():
+                    leaves(member, path + [key])
+            elif value != []:
+                wanted[".".join(path)] = (len(value[0]) if isinstance(value, list) and isinstance(value[0], list) else 1, [value] if isinstance(value, str) else numbers(value))
+        leaves(told, [])
+        self.assertEqual({name: (n, values) for name, (_, n, values) in held.items()}, wanted)
+        self.assertEqual(held["flow.law"][0], "string")
+        self.assertEqual(held["seed"][2], [str(2**63 - 1)])
+        self.assertEqual(len(held["heat.air_temperature"][2]), 10)
+        self.assertEqual(len(set(held["heat.air_temperature"][2])), 10)
+        self.assertEqual(held["vents.at"][1:], [3, numbers([vent["at"] for vent in vents])])
+        self.assertEqual(len(held["heat.sources.1.keys.step"][2]), 2)
 
     @unittest.skipUnless(PYTHON, "no NumPy here: apt-get install python3-numpy")
     def test_numpy_reads_npz(self):

@@ -1,12 +1,14 @@
 // A state is written for other programs: one file per field, and the resolved parameters.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/automaton/rule/parameters.h"
 #include "kernel/automaton/state/ledger.h"
@@ -31,6 +33,7 @@ struct Moment {
   std::uint32_t step = 0;                        // steps done
   double seconds_per_step = 0;                   // of the steps before it
   const rule::Parameters* parameters = nullptr;  // null: they are not known
+  std::string version, scene;                    // of the program, and the name of the scene; or empty
   Lattice surface;                               // what formats of meshes draw
 };
 
@@ -53,6 +56,18 @@ void export_npy(const state::Volume& volume, const std::filesystem::path& folder
 
 // Says what the files of these fields hold: axes, bits and units.
 std::string fields_json(const state::Volume& volume);
+
+// Is a number, a list, a table or a word, as text for VTK.
+struct NamedValue {
+  std::string name;  // its path in parameters.json: "flow.fall.factor"
+  const char* type;  // "Int64", "Float64" or "String"
+  std::size_t components = 1, tuples = 1;
+  std::string text{};  // numbers; of a word the bytes, up to a 0
+};
+NamedValue named_word(std::string name, std::string_view word);
+// Returns all that parameters_json has, but the grid and the step. A list of objects becomes a table for each
+// of their members.
+std::vector<NamedValue> named_values(const rule::Parameters& parameters);
 
 // Returns everything that the rules depend on besides the state (docs/automaton.md, "Parameters").
 std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step);

@@ -1,8 +1,11 @@
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernel/run/io/export.h"
@@ -130,9 +133,7 @@ json flow_json(const rule::Flow& flow) {
           {"mobility_rate", flow.mobility_rate}};
 }
 
-}  // namespace
-
-std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step) {
+json all_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step) {
   json result = {{"grid", {grid.x, grid.y, grid.z}},
                  {"border", parameters.open_border ? "open" : "closed"},
                  {"step", step},
@@ -149,7 +150,87 @@ std::string parameters_json(const rule::Parameters& parameters, state::Grid grid
                  {"heat", heat_json(parameters.heat)},
                  {"flow", flow_json(parameters.flow)}};
   result.update(regions_json(parameters));
-  return result.dump(2) + "\n";
+  return result;
+}
+
+// Tells if it is a number, or a list of some.
+bool is_row(const json& value) {
+  const auto is_number = [](const json& one) { return one.is_number() || one.is_boolean(); };
+  return is_number(value) || (value.is_array() && !value.empty() && std::ranges::all_of(value, is_number));
+}
+
+// Tells if it is a list of rows of equal lengths.
+bool is_matrix(const json& value) {
+  const auto fits = [&](const json& row) {
+    return row.is_array() && is_row(row) && row.size() == value[0].size();
+  };
+  return value.is_array() && !value.empty() && std::ranges::all_of(value, fits);
+}
+
+// Tells if it is a list of objects whose members are rows, of equal lengths in all of them.
+bool is_table(const json& value) {
+  const auto fits = [&](const json& object) {
+    if (!object.is_object() || object.size() != value[0].size()) return false;
+    return std::ranges::all_of(object.items(), [&](const auto& member) {
+      const auto first = value[0].find(member.key());
+      return is_row(member.value()) && first != value[0].end() && first->size() == member.value().size();
+    });
+  };
+  return value.is_array() && !value.empty() && value[0].is_object() && std::ranges::all_of(value, fits);
+}
+
+// Adds the numbers of a row. All of a value have its type.
+void append(NamedValue& to, const json& row) {
+  for (const json& number : row.is_array() ? row : json::array({row})) {
+    to.text += to.text.empty() ? "" : " ";
+    to.text += number.is_boolean() ? (number.get<bool>() ? "1" : "0") : number.dump();
+    if (number.is_number_float()) to.type = "Float64";
+  }
+}
+
+void flatten(const json& value, const std::string& name, std::vector<NamedValue>& values) {
+  const std::string before = name.empty() ? "" : name + ".";
+  if (value.is_string()) {
+    values.push_back(named_word(name, value.get<std::string>()));
+  } else if (is_row(value)) {
+    NamedValue row{.name = name, .type = "Int64", .tuples = value.size()};
+    append(row, value);
+    values.push_back(std::move(row));
+  } else if (is_matrix(value)) {
+    NamedValue matrix{.name = name, .type = "Int64", .components = value[0].size(), .tuples = value.size()};
+    for (const json& row : value) append(matrix, row);
+    values.push_back(std::move(matrix));
+  } else if (is_table(value)) {
+    for (const auto& [key, first] : value[0].items()) {
+      NamedValue table{
+          .name = before + key, .type = "Int64", .components = first.size(), .tuples = value.size()};
+      for (const json& object : value) append(table, object[key]);
+      values.push_back(std::move(table));
+    }
+  } else if (value.is_structured()) {
+    for (const auto& [key, member] : value.items()) flatten(member, before + key, values);
+  }
+}
+
+}  // namespace
+
+NamedValue named_word(std::string name, std::string_view word) {
+  NamedValue value{.name = std::move(name), .type = "String"};
+  for (const char c : word) value.text += std::to_string(static_cast<unsigned char>(c)) + " ";
+  value.text += "0";
+  return value;
+}
+
+std::vector<NamedValue> named_values(const rule::Parameters& parameters) {
+  json all = all_json(parameters, {}, 0);
+  for (const char* const key : {"grid", "step"}) all.erase(key);
+  std::vector<NamedValue> values;
+  flatten(all, "", values);
+  return values;
+}
+
+std::string parameters_json(const rule::Parameters& parameters, state::Grid grid, std::uint32_t step) {
+  return all_json(parameters, grid, step).dump(2) + "\n";
 }
 
 }  // namespace voxmelt::io

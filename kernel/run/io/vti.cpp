@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernel/run/io/columns.h"
@@ -89,6 +90,25 @@ std::string header_of(const Packed& packed, std::uint64_t bytes) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(std::uint64_t)};
 }
 
+// Returns what ParaView shows beside the fields: the time, where they come from, and all that the rules use.
+std::string field_data_of(const Moment& moment) {
+  std::vector<NamedValue> values{
+      {.name = "TimeValue", .type = "Float64", .text = std::to_string(moment.step)}};
+  if (!moment.version.empty()) values.push_back(named_word("version", moment.version));
+  if (!moment.scene.empty()) values.push_back(named_word("scene", moment.scene));
+  if (moment.parameters != nullptr)
+    for (NamedValue& value : named_values(*moment.parameters)) values.push_back(std::move(value));
+  std::string text;
+  for (const NamedValue& value : values) {
+    const std::string element = value.type == std::string_view("String") ? "Array" : "DataArray";
+    text += "      <" + element + " type=\"" + value.type + "\" Name=\"" + value.name + "\" ";
+    if (value.components > 1) text += "NumberOfComponents=\"" + std::to_string(value.components) + "\" ";
+    text += "NumberOfTuples=\"" + std::to_string(value.tuples) + "\" format=\"ascii\">" + value.text + "</" +
+            element + ">\n";
+  }
+  return text;
+}
+
 // Returns all that stands before the arrays.
 std::string head_of(const Moment& moment, const std::string& arrays) {
   const state::Grid g = moment.volume.grid;
@@ -96,12 +116,9 @@ std::string head_of(const Moment& moment, const std::string& arrays) {
       "0 " + std::to_string(g.x) + " 0 " + std::to_string(g.y) + " 0 " + std::to_string(g.z);
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <ImageData WholeExtent=\"" +
-         extent +
-         "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <FieldData>\n      <DataArray type=\"Float64\" "
-         "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
-         std::to_string(moment.step) + "</DataArray>\n    </FieldData>\n    <Piece Extent=\"" + extent +
-         "\">\n      <CellData Scalars=\"amount\">\n" + arrays +
-         "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_";
+         extent + "\" Origin=\"0 0 0\" Spacing=\"1 1 1\">\n    <FieldData>\n" + field_data_of(moment) +
+         "    </FieldData>\n    <Piece Extent=\"" + extent + "\">\n      <CellData Scalars=\"amount\">\n" +
+         arrays + "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_";
 }
 
 }  // namespace

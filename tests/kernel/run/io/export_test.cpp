@@ -104,6 +104,33 @@ TEST_F(Export, VtiSaysTheSizesOfItsBlocks) {
   EXPECT_EQ(vti.substr(at), "\n  </AppendedData>\n</VTKFile>\n");
 }
 
+// VTK itself reads all of them in tests/app/write_test.py.
+TEST_F(Export, VtiHasTheParameters) {
+  const Volume volume = sample();
+  rule::Parameters parameters;
+  parameters.vents.resize(2);
+  parameters.vents[0].region.at = {1, 2, 3};
+  parameters.vents[1].region.at = {4, 5, 6};
+  parameters.open_border = true;
+  Moment moment(volume);
+  moment.parameters = &parameters;
+  moment.version = "9.8.7";
+  moment.scene = "hi";
+  find_format("vti")->write(moment, folder_, {});
+  const std::string vti = read("volume.vti");
+  for (const char* const line :
+       {"<Array type=\"String\" Name=\"version\" NumberOfTuples=\"1\" format=\"ascii\">57 46 56 46 55 "
+        "0</Array>",
+        "<Array type=\"String\" Name=\"scene\" NumberOfTuples=\"1\" format=\"ascii\">104 105 0</Array>",
+        "<Array type=\"String\" Name=\"border\" NumberOfTuples=\"1\" format=\"ascii\">111 112 101 110 "
+        "0</Array>",
+        "<DataArray type=\"Int64\" Name=\"vents.at\" NumberOfComponents=\"3\" NumberOfTuples=\"2\" "
+        "format=\"ascii\">1 2 3 4 5 6</DataArray>",
+        "<DataArray type=\"Int64\" Name=\"seed\" NumberOfTuples=\"1\" format=\"ascii\">1</DataArray>"})
+    EXPECT_NE(vti.find(line), std::string::npos) << line;
+  EXPECT_EQ(vti.find("Name=\"grid\""), std::string::npos);
+}
+
 // A state whose packed blocks are not kept is packed twice, for the same file.
 TEST_F(Export, VtiIsTheSameHoweverMuchIsKept) {
   Volume volume(Grid{200, 100, 110});
