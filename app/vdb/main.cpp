@@ -1,7 +1,10 @@
 // The program voxmelt-vdb reads and writes files of OpenVDB for voxmelt. kernel/vdb/stream.h says what it is
 // given and gives. A file can be hostile, so time and memory are bounded before it is opened.
 #include <openvdb/openvdb.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -232,7 +235,10 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   using namespace voxmelt::vdb;
-  output();  // from now on, what OpenVDB has to say goes elsewhere
+  const pid_t caller = ::getppid();
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != caller) return 3;  // it has died meanwhile
+  output();                             // from now on, what OpenVDB has to say goes elsewhere
   try {
     return run({argv, argv + argc});
   } catch (const std::ios_base::failure&) {

@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/prctl.h>
+#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,20 +26,29 @@ constexpr std::size_t kLongestLine = 4096;
                     std::error_code(errno, std::generic_category()).message());
 }
 
-// Runs in the child, between fork and exec: system calls alone are allowed here.
-[[noreturn]] void become(const char* program, char* const* arguments, int stream, int report, pid_t parent) {
-  ::setpgid(0, 0);  // an interrupt of ours is not one of the child
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);  // it has died meanwhile
+// Starts the program with one stream for its input and output. Returns its number, or 0 with errno. It has a
+// process group of its own, because an interrupt of ours is not one of it. The memory of this process is not
+// copied for it, however large it is.
+pid_t spawn(const fs::path& program, char* const* arguments, int stream) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  sigset_t ours;  // signals that we treat in a way of our own
+  ::sigemptyset(&ours);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&ours, signal);
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawnattr_init(&attributes);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO})
-    if (::dup2(stream, standard) == stream) ::fcntl(stream, F_SETFD, 0);  // else exec would close it
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
-  for (const int ignored : {SIGPIPE, SIGXFSZ}) ::signal(ignored, SIG_DFL);
-  ::execv(program, arguments);
-  const int why = errno;
-  (void)!::write(report, &why, sizeof why);
-  ::_exit(127);
+    ::posix_spawn_file_actions_adddup2(&actions, stream, standard);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setsigdefault(&attributes, &ours);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+  pid_t id = 0;
+  const int why = ::posix_spawn(&id, program.c_str(), &actions, &attributes, arguments, environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+  errno = why;
+  return why == 0 ? id : 0;
 }
 
 }  // namespace
@@ -76,26 +85,13 @@ Helper::Helper(const std::vector<std::string>& arguments) {
   std::vector<char*> argv{const_cast<char*>(kProgram)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  std::array<int, 2> streams{},
-      report{};  // the report closes when the program begins, or has an error number
+  std::array<int, 2> streams{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, streams.data()) != 0) fail_of_system("no stream");
   stream_ = streams[0];
-  if (::pipe2(report.data(), O_CLOEXEC) != 0) {
-    ::close(streams[1]);
-    ::close(stream_);
-    fail_of_system("no pipe");
-  }
-  const pid_t parent = ::getpid();
-  id_ = ::fork();
-  if (id_ == 0) become(program.c_str(), argv.data(), streams[1], report[1], parent);
-  int why = id_ < 0 ? errno : 0;
+  id_ = spawn(program, argv.data(), streams[1]);
+  const int why = errno;
   ::close(streams[1]);
-  ::close(report[1]);
-  while (id_ > 0 && ::read(report[0], &why, sizeof why) < 0 && errno == EINTR) {
-  }
-  ::close(report[0]);
-  if (why == 0) return;
-  if (id_ > 0) ::waitpid(id_, nullptr, 0);
+  if (id_ != 0) return;
   ::close(stream_);
   errno = why;
   fail_of_system("cannot start " + program.string());

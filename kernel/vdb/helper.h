@@ -32,7 +32,7 @@ std::string how_to_get_it();
 
 class Helper {
  public:
-  // Starts it with these arguments (stream.h). It is killed when the calling thread ends.
+  // Starts it with these arguments (stream.h). It ends when this process does.
   explicit Helper(const std::vector<std::string>& arguments);
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
