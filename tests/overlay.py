@@ -95,9 +95,9 @@ class Build:
 
 
 def archive_of(name):
-    """The archive in which this object lies: .../CMakeFiles/TARGET.dir/... is in libTARGET.a."""
+    """The archive in which this object lies: .../CMakeFiles/TARGET.dir/... is in libTARGET.a, and libvoxmelt is its own name."""
     target = re.search(r"CMakeFiles/([^/]+)\.dir/", name)
-    return f"lib{target[1]}.a" if target else None
+    return f"lib{target[1]}.a".replace("liblibvoxmelt", "libvoxmelt") if target else None
 
 
 class Overlay:
@@ -144,7 +144,7 @@ class Overlay:
         # An object goes along only if its library does: it may want what the program does not have.
         libraries = {pathlib.Path(w).name for w in words if w.endswith(".a")}
         extra = [o for name, o in changed.items() if name not in own and archive_of(name) in libraries]
-        words = [changed.get(w, w) for w in words[:at]] + extra + ["-o", str(target)] + words[at + 2:]
+        words = [changed.get(w, w) for w in words[:at]] + extra + ["-o", str(target)] + [changed.get(w, w) for w in words[at + 2:]]
         result = subprocess.run(words, cwd=self.build.folder, text=True, capture_output=True)
         if result.returncode != 0:
             raise RuntimeError(f"{program} does not link:\n{result.stderr[:2000]}")

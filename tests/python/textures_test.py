@@ -121,6 +121,9 @@ class Textures(unittest.TestCase):
         textures = run.textures()
         brick = textures.bricks[0]
         texels, before = brick.texels, brick.texels.copy()
+        self.assertFalse(texels.flags.writeable)
+        with self.assertRaises(ValueError):
+            texels[0] = 0
         with self.assertRaises(ValueError):
             texels.setflags(write=True)
         run.step(50)
