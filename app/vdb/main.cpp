@@ -173,9 +173,17 @@ void give_voxels(const Grid& grid, const Wanted& wanted, const std::string& othe
   std::string row(static_cast<std::size_t>(size[0]), '\0');
   for (std::int64_t z = 0; z < size[2]; ++z)
     for (std::int64_t y = 0; y < size[1]; ++y) {
-      for (std::int64_t x = 0; x < size[0]; ++x) {
-        const auto value = static_cast<double>(values.getValue({place(x, 0), place(y, 1), place(z, 2)}));
-        row[static_cast<std::size_t>(x)] = low <= value && value <= high ? 1 : 0;
+      for (std::int64_t x = 0; x < size[0];) {
+        const openvdb::Coord at(place(x, 0), place(y, 1), place(z, 2));
+        const auto value = static_cast<double>(values.getValue(at));
+        // Without a leaf all voxels up to the next brick are alike.
+        const int in_brick = at[0] & (kSide - 1);
+        const int alike = values.probeConstLeaf(at) != nullptr ? 1
+                          : sides[0] < 0                       ? in_brick + 1
+                                                               : kSide - in_brick;
+        const std::int64_t end = std::min(size[0], x + alike);
+        std::fill(row.begin() + x, row.begin() + end, low <= value && value <= high ? 1 : 0);
+        x = end;
       }
       give(row);
     }
