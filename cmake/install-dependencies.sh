@@ -9,7 +9,7 @@ packages=(cmake ninja-build g++ pkg-config libpng-dev libdeflate-dev libzstd-dev
 if [ "$(dpkg --print-architecture)" = amd64 ]; then packages+=(libembree-dev); fi
 if [ "${1:-build}" = test ]; then
   packages+=(libgtest-dev libgmock-dev libopenvdb-dev libopenvdb-tools python3-openvdb clang clang-format clang-tidy doxygen python3 python3-numpy python3-pil pybind11-dev python3-dev python3-venv teem-apps assimp-utils strace valgrind verilator
-             yosys ocl-icd-libopencl1 pocl-opencl-icd)
+             yosys z3 ocl-icd-libopencl1 pocl-opencl-icd)
 fi
 
 missing=()

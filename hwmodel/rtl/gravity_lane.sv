@@ -185,8 +185,8 @@ module gravity_lane (
       fixed13 <= ~paid12 & ~up12;
       left13 <= left12[20] ? 16'd0 : left12[15:0];
       base13 <= paid12 ? energy12 - $signed({2'b0, after12}) : $signed({2'b0, stays12});
-      bound13 <= $signed({2'b0, paid12 ? high12 : flow12}) - (paid12 ? energy12 - $signed({2'b0, after12}) : 18'sd0);
-      highest13 <= paid12 ? high12 : stays12 + flow12;
+      bound13 <= paid12 ? 18'sd131071 : $signed({2'b0, flow12});  // who has paid is never beyond
+      highest13 <= stays12 + flow12;
 
       energy14 <= down13 ? (fits ? with_gain : after13) : ~up13 ? held : beyond ? without_flow : 16'd0;
       amount14 <= after13;
