@@ -105,7 +105,6 @@ void check_asked(const VerifyCommand& command) {
   refuse(rtl && picture, "--rtl", "the ray caster is not written in SystemVerilog");
   refuse(rtl && machine, "--rtl", "only of the pipeline alone");
   refuse(rtl && command.sleep, "--rtl", "--sleep runs the software alone");
-  refuse(rtl && !command.plant.empty(), "--rtl", "a fault is planted in a model");
   refuse(rtl && !command.shrink.empty(), "--rtl", "--shrink makes machines that it is not compiled for");
   refuse(rtl && !command.size_fifos.empty(), "--rtl", "--size-fifos is for the cycles of the models");
   refuse(command.plant_step && command.plant.empty(), "--plant-step",

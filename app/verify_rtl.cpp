@@ -71,7 +71,10 @@ RtlChoice::RtlChoice(const VerifyCommand& command, const rule::Parameters& param
           fmt::format("error: --rtl {}: of the stages of this scene, these are written in "
                       "SystemVerilog: {}",
                       name, fmt::join(there, ", ")));
-  options.make = hwmodel::rtl_stages(std::move(only));
+  circuits_ = hwmodel::rtl_stages(std::move(only));
+  // A fault is planted in the models. So they are verified first, and the circuits after them.
+  if (options.fault != hwmodel::Fault::none) return;
+  options.make = circuits_;
   if (options.memory != nullptr || options.waves) return;
   trace_ = std::make_shared<hwmodel::ChannelTrace>();
   options.machine = watched(parameters, grid, options.configuration, options.make, trace_.get());
@@ -94,6 +97,10 @@ bool RtlChoice::compare(const VerifiedStream& stream, const step::Implementation
   const hwmodel::Mismatch* mismatch = report.mismatch.get();
   if (mismatch != nullptr && mismatch->kind == Kind::software) {
     said = "the software stands alone\n";
+    return true;
+  }
+  if (options.fault != hwmodel::Fault::none) {
+    if (mismatch != nullptr) said = beside_a_fault(stream, fast, tuning, std::move(options), *mismatch);
     return true;
   }
   if (mismatch == nullptr && trace_ == nullptr) return true;
@@ -124,6 +131,22 @@ bool RtlChoice::compare(const VerifiedStream& stream, const step::Implementation
   said = fmt::format("{} cycles beside the models: both sides of every channel did the same in each\n",
                      trace_->cycles());
   return true;
+}
+
+std::string RtlChoice::beside_a_fault(const VerifiedStream& stream, const step::Implementation& fast,
+                                      const step::Tuning& tuning, hwmodel::VerifyOptions options,
+                                      const hwmodel::Mismatch& mismatch) const {
+  options.fault = hwmodel::Fault::none;
+  options.make = circuits_;
+  options.waves = options.timeline = false;
+  options.memory = nullptr;
+  options.steps = mismatch.step - stream.first_step + 1;
+  const hwmodel::VerifyReport circuits =
+      hwmodel::verify(stream.parameters, stream.volume, stream.first_step, fast, tuning, options);
+  if (circuits.mismatch != nullptr)
+    return fmt::format("SystemVerilog differs from the software, too: {}, step {}\n", circuits.mismatch->where,
+                       circuits.mismatch->step);
+  return fmt::format("SystemVerilog agrees with the software: the model of {} stands alone\n", mismatch.where);
 }
 
 }  // namespace voxmelt::app

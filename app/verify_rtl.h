@@ -19,7 +19,7 @@ class RtlChoice {
 
   bool asked() const { return asked_; }
 
-  // Runs the models again. After a difference, says which of software, model and SystemVerilog stands alone.
+  // Runs the models again, or after a fault that was planted in them the circuits. After a difference, says which of software, model and SystemVerilog stands alone.
   // Otherwise compares both sides of every channel in every cycle, unless there is a DRAM. Returns false if
   // they differ.
   bool agrees_with_models(const VerifiedStream& stream, const step::Implementation& fast,
@@ -30,7 +30,13 @@ class RtlChoice {
   bool compare(const VerifiedStream& stream, const step::Implementation& fast, const step::Tuning& tuning,
                hwmodel::VerifyOptions options, const hwmodel::VerifyReport& report, std::string& said) const;
 
+  // Says who stands alone after a difference in models that have a fault.
+  std::string beside_a_fault(const VerifiedStream& stream, const step::Implementation& fast,
+                             const step::Tuning& tuning, hwmodel::VerifyOptions options,
+                             const hwmodel::Mismatch& mismatch) const;
+
   bool asked_;
+  hwmodel::StageMaker circuits_;
   std::shared_ptr<hwmodel::ChannelTrace> trace_;
 };
 

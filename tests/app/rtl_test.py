@@ -40,11 +40,24 @@ class Rtl(unittest.TestCase):
             done = self.verify("lesson_oven", "--from", 300, "--rtl", stages)
             self.assertEqual((done.returncode, digest.search(done.stdout)[1]), (0, models))
 
+    def test_a_fault_of_a_model_stands_alone(self):
+        for scene, first, faults in (
+                ("proving_ground", 40, ("side-missed", "axis-uncounted", "air-axis-missed", "gravity-mix",
+                                        "gravity-room", "pattern-margin", "apply-flow-lost", "drain-energy")),
+                ("proving_ground_viscous", 40, ("vent-rate", "settle-head", "settle-run-broken", "gravity-set-falls",
+                                                "viscous-flow-lost", "viscous-across"))):
+            for fault in faults:
+                done = self.verify(scene, "--from", first, "--rtl", "all", "--plant", fault)
+                planted = re.search(r"planted: (\S+?)[, ].*; found there\n", done.stdout)
+                self.assertEqual((done.returncode, planted is not None), (1, True), fault + done.stdout + done.stderr)
+                alone = re.search(r"SystemVerilog agrees with the software: the model of (\S+) stands alone", done.stdout)
+                self.assertIsNotNone(alone, fault + done.stdout)
+                self.assertEqual(alone[1], planted[1], fault)
+
     def test_what_is_refused(self):
         for options, words in (
                 (("--rtl", "gravit"), "error: --rtl gravit: of the stages of this scene, these are written in "
                                       "SystemVerilog: conduction, convection, exchange, melt, gravity, pattern, apply"),
-                (("--rtl", "all", "--plant", "gravity-flow"), "error: --rtl: a fault is planted in a model"),
                 (("--rtl", "all", "--machine"), "error: --rtl: only of the pipeline alone")):
             done = self.verify("lesson_oven", *options)
             self.assertEqual((done.returncode, done.stderr.strip()), (2, words), options)
