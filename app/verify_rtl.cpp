@@ -144,9 +144,10 @@ std::string RtlChoice::beside_a_fault(const VerifiedStream& stream, const step::
   const hwmodel::VerifyReport circuits =
       hwmodel::verify(stream.parameters, stream.volume, stream.first_step, fast, tuning, options);
   if (circuits.mismatch != nullptr)
-    return fmt::format("SystemVerilog differs from the software, too: {}, step {}\n", circuits.mismatch->where,
-                       circuits.mismatch->step);
-  return fmt::format("SystemVerilog agrees with the software: the model of {} stands alone\n", mismatch.where);
+    return fmt::format("SystemVerilog differs from the software, too: {}, step {}\n",
+                       circuits.mismatch->where, circuits.mismatch->step);
+  return fmt::format("SystemVerilog agrees with the software: the model of {} stands alone\n",
+                     mismatch.where);
 }
 
 }  // namespace voxmelt::app
