@@ -46,6 +46,7 @@ std::string makefile_of() {
   return R"(# make          compiles the test bench with Verilator, and streams the vectors without and with stalls
 # make BLOCKS=1 does so with products as multiplier blocks have them
 # make xilinx   synthesises the pipeline with Yosys for UltraScale+; likewise ecp5, ice40
+# make place    places and routes it on an iCE40 HX8K, with nextpnr-ice40
 SOURCES := voxmelt_pkg.sv $(filter-out voxmelt_pkg.sv testbench.sv, $(wildcard *.sv))
 
 test: built/testbench
@@ -60,10 +61,15 @@ xilinx ecp5 ice40: $(SOURCES)
 	yosys -l $@.log -p "read_verilog -sv $(if $(filter ice40,$@),,-DVOXMELT_BLOCKS) $(SOURCES); hierarchy -check -top pipeline; proc; check -assert; \
 	  synth_$@ $(if $(filter xilinx,$@),-family xcup) -top pipeline; stat"
 
-clean:
-	rm -rf built *.log
+place: $(SOURCES)
+	yosys -q -l place.log -p "read_verilog -sv $(SOURCES); hierarchy -check -top pipeline; proc; check -assert; \
+	  synth_ice40 -top pipeline -json pipeline.json; stat"
+	nextpnr-ice40 --hx8k --package ct256 --pcf-allow-unconstrained --json pipeline.json --asc pipeline.asc
 
-.PHONY: test xilinx ecp5 ice40 clean
+clean:
+	rm -rf built *.log pipeline.json pipeline.asc
+
+.PHONY: test xilinx ecp5 ice40 place clean
 )";
 }
 
