@@ -19,9 +19,9 @@ class RtlChoice {
 
   bool asked() const { return asked_; }
 
-  // Runs the models again, or after a fault that was planted in them the circuits. After a difference, says which of software, model and SystemVerilog stands alone.
-  // Otherwise compares both sides of every channel in every cycle, unless there is a DRAM. Returns false if
-  // they differ.
+  // Runs the models again, or after a fault that was planted in them the circuits. After a difference, says
+  // which of software, model and SystemVerilog stands alone. Otherwise compares both sides of every channel
+  // in every cycle, unless there is a DRAM. Returns false if they differ.
   bool agrees_with_models(const VerifiedStream& stream, const step::Implementation& fast,
                           const step::Tuning& tuning, const hwmodel::VerifyOptions& options,
                           const hwmodel::VerifyReport& report, bool quiet) const;

@@ -62,7 +62,11 @@ module proof (
       .q({x5, y5, z5}));
   logic signed [34:0] x_before;
   past #(.WIDTH(35), .N(1)) same (.clk(clk), .d(x4), .q(x_before));
+  logic signed [17:0] drop5;
+  past #(.WIDTH(18), .N(4)) same_drop (.clk(clk), .d(drop_x2), .q(drop5));
   always_comb if (age == 8'd5) begin
+    no_more_than_the_drop: assert (drop5 >= 18'sd0 ? {2'b0, west_flow6} <= drop5
+                                                   : {2'b0, 16'd0 - west_flow6} <= 18'd0 - drop5);
     west_as_the_page: assert (west_flow6 == x5[15:0]);
     below_as_the_page: assert (flow_y6 == y5[15:0]);
     south_as_the_page: assert (south_flow6 == z5[15:0]);

@@ -23,7 +23,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 RTL = HERE.parents[2] / "hwmodel/rtl"
-KEYS = {"name", "part", "file", "with", "looks_at", "moves", "induction", "logic", "says", "property", "seconds", "memory"}
+KEYS = {"name", "part", "file", "with", "looks_at", "moves", "induction", "logic", "says", "property", "seconds", "memory", "lemmas"}
 PROPERTY_KEYS = {"name", "says", "file", "bug", "becomes"}
 SECONDS = 240  # for one property
 
@@ -46,7 +46,17 @@ def sources_of(text):
 
 
 def assertions_of(proof):
+    if proof.get("lemmas"):
+        return sorted(file.stem for file in HERE.glob("*.smt2"))
     return re.findall(r"^\s*(\w+): assert \(", (HERE / f"{proof['name']}.sv").read_text(), re.M)
+
+
+def looks_after(proof):
+    """The numbers of moves after which a proof looks at something."""
+    if proof.get("lemmas"):
+        return []
+    text = (HERE / f"{proof['name']}.sv").read_text()
+    return [int(age) for age in re.findall(r"age == 8'd(\d+)\) begin\n\s+\w+: assert", text)]
 
 
 def script(proof, files, wanted, out, together):
@@ -83,6 +93,9 @@ def run(command, seconds):
 
 def solve(proof, wanted, folder, files, plant):
     """"holds", "fails" or "no answer", and seconds of processor. A bug has to show from the reset on."""
+    if proof.get("lemmas"):
+        text, _, spent = run(["z3", str(files[0])], SECONDS)
+        return {None: "no answer", "unsat": "holds", "sat": "fails"}.get(text and text.strip(), f"error: {text}"), spent
     steps, smt = folder / "proof.ys", folder / "proof.smt2"
     steps.write_text(script(proof, files, wanted, smt, "induction" in proof and not plant))
     text, code, spent = run(["yosys", "-q", "-s", str(steps)], SECONDS)
@@ -118,19 +131,20 @@ def check(proofs):
     """All that can be seen without a proof."""
     wrong = []
     for proof in proofs:
+        folder = HERE if proof.get("lemmas") else RTL
         if set(proof) - KEYS:
             wrong.append(f"{proof['name']}: unknown keys {set(proof) - KEYS}")
         here = assertions_of(proof)
         listed = [one["name"] for one in proof["property"]]
         if sorted(here) != sorted(listed):
             wrong.append(f"{proof['name']}: assertions {here}, listed {listed}")
-        ages = re.findall(r"age == 8'd(\d+)\) begin\n\s+\w+: assert", (HERE / f"{proof['name']}.sv").read_text())
-        if max(map(int, ages), default=proof["moves"]) != proof["moves"]:
+        ages = looks_after(proof)
+        if ages and max(ages) != proof["moves"]:
             wrong.append(f"{proof['name']}: {proof['moves']} moves, but looks after {ages}")
         for one in proof["property"]:
             if set(one) != PROPERTY_KEYS:
                 wrong.append(f"{proof['name']}.{one['name']}: keys {sorted(one)}")
-            elif (RTL / one["file"]).read_text().count(one["bug"]) != 1:
+            elif (folder / one["file"]).read_text().count(one["bug"]) != 1:
                 wrong.append(f"{proof['name']}.{one['name']}: {one['file']} does not have once: {one['bug']}")
     for line in wrong:
         print(line)
@@ -138,12 +152,19 @@ def check(proofs):
     return not wrong
 
 
+def files_of(proof, one):
+    """The parts that a proof reads, or a lemma alone."""
+    if proof.get("lemmas"):
+        return [HERE / one["file"]]
+    return sources_of(f"{proof.get('file', proof['part'])} {(HERE / (proof['name'] + '.sv')).read_text()}")
+
+
 def prove(proofs, only, plant):
     """Rows of what was found; the answer that is wanted in each is "holds", or "fails" with a bug planted."""
     rows = []
     for proof in proofs:
-        files = sources_of(f"{proof.get('file', proof['part'])} {(HERE / (proof['name'] + '.sv')).read_text()}")
         for one in proof["property"]:
+            files = files_of(proof, one)
             name = f"{proof['name']}.{one['name']}"
             if not re.search(only, name):
                 continue
@@ -174,7 +195,8 @@ def page(proofs, holding, failing):
     found = {name: answer for name, answer, _ in failing}
     for proof in proofs:
         text += f"\n## {proof['says'][0].upper() + proof['says'][1:]}\n\n"
-        text += f"`{proof['name']}.sv` looks at `{proof.get('file', proof['part'])}.sv`.\n\n"
+        if not proof.get("lemmas"):
+            text += f"`{proof['name']}.sv` looks at `{proof.get('file', proof['part'])}.sv`.\n\n"
         text += "| property | answer | with its bug | s |\n|---|---|---|---|\n"
         rows = {name: (answer, seconds) for name, answer, seconds in holding}
         for one in proof["property"]:
