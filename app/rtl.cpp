@@ -44,7 +44,7 @@ struct RtlCommand {
 
 std::string makefile_of() {
   return R"(# make          compiles the test bench with Verilator, and streams the vectors without and with stalls
-# make BLOCKS=1 does so with products as multiplier blocks have them
+# make BLOCKS=1 does so with products as multiplier blocks have them, make AXI=1 through AXI4-Stream
 # make xilinx   synthesises the pipeline with Yosys for UltraScale+; likewise ecp5, ice40
 # make place    places and routes it on an iCE40 HX8K, with nextpnr-ice40
 SOURCES := voxmelt_pkg.sv $(filter-out voxmelt_pkg.sv testbench.sv, $(wildcard *.sv))
@@ -54,7 +54,7 @@ test: built/testbench
 	./built/testbench +stalls=3
 
 built/testbench: testbench.sv $(SOURCES)
-	verilator --binary --timing $(if $(BLOCKS),-DVOXMELT_BLOCKS) -O3 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique \
+	verilator --binary --timing $(if $(BLOCKS),-DVOXMELT_BLOCKS) $(if $(AXI),-DVOXMELT_AXI) -O3 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique \
 	  --top-module testbench --Mdir built -o testbench $(SOURCES) testbench.sv
 
 xilinx ecp5 ice40: $(SOURCES)
@@ -79,7 +79,8 @@ std::string readme_of(const scene::Scene& scene, const hwmodel::Configuration& c
       "# {}: its pipeline in SystemVerilog\n\n"
       "`pipeline.sv` is the top: {} lanes, {} time steps in a row. All numbers of the scene are constants "
       "in\n"
-      "it. The other files are its parts; `voxmelt_pkg.sv` is read first.\n\n"
+      "it. The other files are its parts; `voxmelt_pkg.sv` is read first. `axi_pipeline.sv` puts it behind\n"
+      "AXI4-Stream.\n\n"
       "`make` streams {} passes through it, from step {} of the scene on, and compares every token with "
       "what\n"
       "the software gives. That wants Verilator 5. `make ecp5`, `make xilinx` and `make ice40` synthesise "
@@ -144,6 +145,7 @@ void write_folder(const fs::path& folder, const hwmodel::Design& design, const h
     io::write_file(folder / name, text);
   };
   write("pipeline.sv", hwmodel::pipeline_text(design, c));
+  write("axi_pipeline.sv", hwmodel::axi_text(design, c));
   write("testbench.sv", hwmodel::bench_text(design, c, passes, first_step));
   write("in.hex", vectors.in);
   write("out.hex", vectors.out);

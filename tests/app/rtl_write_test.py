@@ -54,6 +54,16 @@ class Small(Written):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("token 700 differs", done.stdout)
 
+    def test_behind_axi4_stream(self):
+        scene = write(self.folder, SMALL)
+        folder = Path(self.written(scene, "--from", 8, "--passes", 2, "--set", "hw.lanes=1", "--set", "hw.cascade=1"))
+        self.passes(folder, 2 * 12 * 10 * 12, "AXI=1")
+        wrapper = folder / "axi_pipeline.sv"
+        wrapper.write_text(wrapper.read_text().replace("left == 32'd0 ? TOKENS - 32'd1", "left == 32'd0 ? TOKENS - 32'd2"))
+        done = make(folder, "AXI=1")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("token 2878: TLAST is 1", done.stdout)
+
     @unittest.skipUnless(shutil.which("yosys"), "skipped: `apt-get install yosys`")
     def test_yosys_reads_it_without_a_warning(self):
         viscous = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.01\nsubsteps = 2')
@@ -66,7 +76,7 @@ class Small(Written):
         sources = ["voxmelt_pkg.sv"] + sorted(f.name for f in Path(folder).glob("*.sv")
                                               if f.name not in ("voxmelt_pkg.sv", "testbench.sv"))
         done = subprocess.run(["yosys", "-q", "-e", ".*", "-p", f"read_verilog -sv {' '.join(sources)}; "
-                               "hierarchy -check -top pipeline; proc; check -assert"],
+                               "hierarchy -check -top axi_pipeline; proc; check -assert"],
                               cwd=folder, capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout[-2000:])
 

@@ -24,6 +24,29 @@ module testbench;
   assign out_ready = takes;
 )";
 
+constexpr const char* kDevices = R"(
+`ifdef VOXMELT_AXI
+  logic [{bits}-1:0] axi_cells;
+  logic last;
+  assign out_cells = axi_cells[WIDTH-1:0];
+  axi_pipeline device (
+      .aclk(clk), .aresetn(~rst), .first_step(32'd{step}), .follows(follows), .s_axis_cells_tvalid(in_valid),
+      .s_axis_cells_tready(in_ready), .s_axis_cells_tdata({bits}'(in_words[sent < TOKENS ? sent : 0])),
+{axi_pins}      .m_axis_cells_tvalid(out_valid), .m_axis_cells_tready(out_ready), .m_axis_cells_tdata(axi_cells),
+      .m_axis_cells_tlast(last));
+  always @(posedge clk)
+    if (!rst & out_valid & out_ready & (last != (got % {pass} == {pass} - 1) | axi_cells >> WIDTH != 0)) begin
+      $display("token %0d: TLAST is %0d, data are %h", got, last, axi_cells);
+      $fatal(1);
+    end
+`else
+  pipeline device (
+      .clk(clk), .rst(rst), .first_step(32'd{step}), .follows(follows), .in_valid(in_valid),
+      .in_ready(in_ready), .in_cells(in_words[sent < TOKENS ? sent : 0]),
+{pins}      .out_valid(out_valid), .out_ready(out_ready), .out_cells(out_cells));
+`endif
+)";
+
 constexpr const char* kBenchTail = R"(
   initial begin
     $readmemh("in.hex", in_words);
@@ -66,31 +89,29 @@ endmodule
 std::string bench_text(const Design& design, const Configuration& c, std::int64_t passes,
                        std::uint32_t first_step) {
   const std::int64_t tokens = passes * design.shape.tokens();
-  std::string signals, pins, reads, moves;
-  const auto side = [&](const std::string& name, const std::string& file, int width) {
+  const int width = c.lanes * stored_bits(design);
+  std::string signals, pins, axi_pins, reads, moves;
+  for (const SideStream& side : side_streams(design, c)) {
     signals += fmt::format(
         "  logic {0}_valid, {0}_ready;\n  logic [{1}:0] {0}_words[0:TOKENS-1];\n"
         "  integer {0}_sent = 0;\n  assign {0}_valid = {0}_sent < TOKENS;\n",
-        name, width - 1);
+        side.name, side.width - 1);
     pins += fmt::format(
         "      .{0}_valid({0}_valid), .{0}_ready({0}_ready), "
         ".{0}({0}_words[{0}_sent < TOKENS ? {0}_sent : 0]),\n",
-        name);
-    reads += fmt::format("    $readmemh(\"{}\", {}_words);\n", file, name);
-    moves += fmt::format("    if (!rst & {0}_valid & {0}_ready) {0}_sent <= {0}_sent + 1;\n", name);
-  };
-  for (int t = 0; design.hot() && design.parameters.heat.radiation && t < c.cascade; ++t)
-    side(fmt::format("feed{}", t), fmt::format("feed_{}.hex", t), 16 * c.lanes);
-  if (design.parameters.pieces.fall) side("falls", "falls.hex", c.lanes);
-
-  std::string text =
-      fmt::format(kBenchHead, fmt::arg("tokens", tokens), fmt::arg("width", c.lanes * stored_bits(design)));
+        side.name);
+    axi_pins += fmt::format(
+        "      .s_axis_{0}_tvalid({0}_valid), .s_axis_{0}_tready({0}_ready),\n"
+        "      .s_axis_{0}_tdata({1}'({0}_words[{0}_sent < TOKENS ? {0}_sent : 0])),\n",
+        side.name, axi_bits(side.width));
+    reads += fmt::format("    $readmemh(\"{}\", {}_words);\n", side.file, side.name);
+    moves += fmt::format("    if (!rst & {0}_valid & {0}_ready) {0}_sent <= {0}_sent + 1;\n", side.name);
+  }
+  std::string text = fmt::format(kBenchHead, fmt::arg("tokens", tokens), fmt::arg("width", width));
   text += signals;
-  text += fmt::format(
-      "  pipeline device (\n      .clk(clk), .rst(rst), .first_step(32'd{}), .follows(follows), "
-      ".in_valid(in_valid),\n      .in_ready(in_ready), .in_cells(in_words[sent < TOKENS ? sent : 0]),\n{}"
-      "      .out_valid(out_valid), .out_ready(out_ready), .out_cells(out_cells));\n",
-      first_step, pins);
+  text += fmt::format(kDevices, fmt::arg("step", first_step), fmt::arg("pins", pins),
+                      fmt::arg("axi_pins", axi_pins), fmt::arg("bits", axi_bits(width)),
+                      fmt::arg("pass", design.shape.tokens()));
   return text + fmt::format(kBenchTail, fmt::arg("reads", reads), fmt::arg("moves", moves));
 }
 

@@ -17,8 +17,23 @@ std::string unwritten(const Design& design, const Configuration& configuration);
 // Returns the module `pipeline`. It wants the file air.hex if the scene has air.
 std::string pipeline_text(const Design& design, const Configuration& configuration);
 
+// Describes a stream beside the cells: its name in `pipeline`, its file of vectors, and the bits of its
+// words.
+struct SideStream {
+  std::string name, file;
+  int width = 0;
+};
+std::vector<SideStream> side_streams(const Design& design, const Configuration& configuration);
+
+// Returns the module `axi_pipeline`, which puts the pipeline behind AXI4-Stream.
+std::string axi_text(const Design& design, const Configuration& configuration);
+
+// Returns the bits of an AXI4-Stream's data: those of the words, filled up to bytes.
+int axi_bits(int width);
+
 // Returns a test bench that streams `passes` passes through the pipeline, from the files in.hex, out.hex and,
 // if the design has feeds, feed_T.hex of each time step T and falls.hex. Its first time step is `first_step`.
+// With VOXMELT_AXI it streams them through `axi_pipeline`.
 std::string bench_text(const Design& design, const Configuration& configuration, std::int64_t passes,
                        std::uint32_t first_step);
 
