@@ -43,16 +43,19 @@ class Exchange {
   }
 
   [[gnu::always_inline]] void run(const TileRow* tiles, const HeatTiles& tell, Books& books) {
-    if (kFeatures.air && glows_)
-      run_rows<kFeatures.air>(tiles, tell);
-    else
-      run_rows<false>(tiles, tell);
+    run_all(tiles, tell);
     books.heat.radiated += radiated_.total();
     books.heat.warmed += warmed_.total();
     books.heat.cooled += cooled_.total();
   }
 
  private:
+  [[gnu::always_inline]] void run_all(const TileRow* tiles, const HeatTiles& tell) {
+    if constexpr (kFeatures.air)
+      if (glows_) return run_rows<true>(tiles, tell);
+    run_rows<false>(tiles, tell);
+  }
+
   template <bool kGlows>
   [[gnu::always_inline]] void run_rows(const TileRow* tiles, const HeatTiles& tell) {
     for (int r = 0; r < v_.tile_rows(); ++r) {
