@@ -96,7 +96,8 @@ class Package(unittest.TestCase):
     def test_1_the_programs_need_nothing_but_what_the_package_asks_for(self):
         self.install("--no-install-recommends", "/root/voxmelt.deb")
         self.assertEqual(self.digest("voxmelt"), APPROVED["bunny_small"]["10"])
-        self.assertEqual(len(self.elf_files()), 6, "five programs, and a module")
+        vdb = (BUILD / "app/voxmelt-vdb").is_file()
+        self.assertEqual(len(self.elf_files()), 6 + vdb, "the programs, and a module")
         for name in self.elf_files():
             said = self.inside("ldd", name)
             self.assertIn("libc.so.6 => ", said)
@@ -105,6 +106,9 @@ class Package(unittest.TestCase):
             self.assertIn(f"voxmelt {command}", self.inside("voxmelt", command, "--help"))
         self.inside("voxmelt", "run", "bunny_small", "--steps", "20", "--out", "/root/run", "--quiet")
         self.assertTrue((self.system / "root/run/film.webp").is_file(), "there is no ffmpeg")
+        if vdb:
+            self.inside("voxmelt", "export", "bunny_small", "--format", "vdb", "--out", "/root/state", "--quiet")
+            self.assertEqual(len(list((self.system / "root/state").glob("*.vdb"))), 1)
 
     def test_2_they_work_elsewhere(self):
         (self.system / "elsewhere").mkdir()
