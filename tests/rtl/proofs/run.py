@@ -23,7 +23,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 RTL = HERE.parents[2] / "hwmodel/rtl"
-KEYS = {"name", "part", "file", "with", "looks_at", "moves", "induction", "logic", "says", "property", "seconds", "memory", "lemmas"}
+KEYS = {"name", "part", "file", "with", "looks_at", "moves", "induction", "logic", "says", "property", "memory", "lemmas"}
 PROPERTY_KEYS = {"name", "says", "file", "bug", "becomes"}
 SECONDS = 240  # for one property
 
@@ -105,7 +105,7 @@ def solve(proof, wanted, folder, files, plant):
     if "induction" in proof and not plant:
         depths.append(["-i", "-t", str(proof["induction"])])
     for depth in depths:
-        answer, _, seconds = run(["yosys-smtbmc", "-s", "z3", "--unroll", "--noincr", *depth, str(smt)], proof.get("seconds", SECONDS))
+        answer, _, seconds = run(["yosys-smtbmc", "-s", "z3", "--unroll", "--noincr", *depth, str(smt)], SECONDS)
         spent += seconds
         if answer is None:
             return "no answer", spent
