@@ -11,8 +11,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "kernel/scene/mesh_file/mesh_file.h"
+#include "kernel/scene/shape/heightfield.h"
 #include "kernel/scene/text/ascii.h"
 #include "kernel/scene/text/document.h"
 #include "kernel/scene/text/print.h"
@@ -118,6 +120,130 @@ shininess = 50
 specular = 0.45
 )";
 
+// A map has lava on its highest place. The numbers are those of `voxmelt new lava`.
+constexpr int kRelief = 48, kAir = 16, kGround = 2, kNarrowest = 16;
+constexpr int kLandSteps = 900, kVentRadius = 4;
+
+struct Land {
+  std::array<int, 3> grid{}, vent{};
+  double scale = 1;  // cells per unit of the file
+  double lowest = 0, highest = 0;
+  int columns = 0, rows = 0;
+};
+
+// Finds where lava comes from: on the highest place that is an eighth or more away from each edge.
+std::array<int, 3> summit(const std::vector<double>& height, int nx, int nz, double scale) {
+  std::array<int, 3> best{nx / 2, 0, nz / 2};
+  double highest = -1;
+  for (int z = nz / 8; z < nz - nz / 8; ++z)
+    for (int x = nx / 8; x < nx - nx / 8; ++x) {
+      const double here = height[static_cast<std::size_t>(z) * nx + x];
+      if (here <= highest) continue;
+      highest = here;
+      best = {x, kGround + static_cast<int>(std::ceil(here * scale)), z};
+    }
+  return best;
+}
+
+Land land_of(const std::filesystem::path& file) {
+  const Place place{std::make_shared<const Origin>(Origin{file.string(), {}, false})};
+  Elevation elevation = read_elevation(file, place);
+  const auto [lowest, highest] = std::ranges::minmax(elevation.value);
+  const double wide = elevation.columns * elevation.cell_x, deep = elevation.rows * elevation.cell_y;
+  const auto cells = [&](double side) {
+    return std::max(kNarrowest, static_cast<int>(std::lround(kSide * side / std::max(wide, deep))));
+  };
+  Land land{{cells(wide), kGround + kRelief + kAir, cells(deep)}, {}, 1, lowest, highest, 0, 0};
+  land.columns = elevation.columns;
+  land.rows = elevation.rows;
+  if (highest > lowest) land.scale = std::min(kRelief / (highest - lowest), kHighestElevation);
+  smooth(elevation, 1);
+  land.vent = summit(resample(elevation, land.grid[0], land.grid[2]), land.grid[0], land.grid[2], land.scale);
+  return land;
+}
+
+constexpr std::string_view kLandText = R"(title = {title}
+# voxmelt assumed all of this, as the heights came without a scene. docs/scenes.md lists every key.
+
+[grid]
+size = [{x}, {y}, {z}]   # cells: x to the east, y up, z to the south
+border = "open"          # what reaches the edge leaves the grid
+
+[run]
+steps = {steps}
+frame_every = {every}
+
+[[inert]]
+shape = "heightfield"    # the ground: it never melts
+file = {file}
+vertical_scale = {scale:.6g}   # cells for a unit of height; less is flatter
+base = {base}                 # cells below the lowest point
+
+[[vent]]                 # where lava comes from
+at = [{vent_x}, {vent_y}, {vent_z}]
+radius = {radius}
+rate = 0.04              # amount for each cell of the vent and step; 1 fills a cell
+temperature = 0.95
+from = 0
+until = {until}
+
+[material]
+melting_point = 0.5
+
+[heat]
+gamma = 0.05             # conduction
+
+[heat.air]               # lava cools where it meets the air
+exchange = 0.004
+bottom = 0.0
+
+[flow]
+law = "paper"            # or "viscous"
+
+[flow.paper]
+threshold = 0.2
+support = true           # only what stands on something spreads
+alpha_floor = 0.99
+slump = 0.3
+
+[flow.thermal]           # hot lava runs, cold lava crawls
+reference = 0.6
+doubling = 0.12
+
+[camera]
+elevation = 32           # degrees above the horizon
+
+[look]
+ground = [0.34, 0.32, 0.25]
+liquid = [0.95, 0.42, 0.10]
+glow = true              # hot lava shines
+)";
+
+ModelScene scene_of_land(const std::filesystem::path& file) {
+  const Land land = land_of(file);
+  const auto& [x, y, z] = land.grid;
+  const auto& [vent_x, vent_y, vent_z] = land.vent;
+  constexpr int until = kLandSteps * 7 / 9;
+  const std::string name = file.filename().string();
+  using fmt::arg;
+  ModelScene scene;
+  scene.text = fmt::format(kLandText, arg("title", toml_string(name)), arg("x", x), arg("y", y), arg("z", z),
+                           arg("steps", kLandSteps), arg("every", kLandSteps / kFrames),
+                           arg("file", toml_string(std::filesystem::absolute(file).string())),
+                           arg("scale", land.scale), arg("base", kGround), arg("vent_x", vent_x),
+                           arg("vent_y", vent_y), arg("vent_z", vent_z), arg("radius", kVentRadius),
+                           arg("until", until));
+  scene.assumed = {
+      fmt::format("the {} x {} heights of {} are the ground of a grid of {} x {} x {} cells, {:.4g} to their "
+                  "unit: {:g} to {:g} is {} cells high",
+                  land.columns, land.rows, name, x, y, z, land.scale, land.lowest, land.highest,
+                  land.highest > land.lowest ? kRelief : 0),
+      fmt::format("lava of temperature 0.95 comes from [{}, {}, {}], the highest place, until step {}",
+                  vent_x, vent_y, vent_z, until),
+      fmt::format("it cools in air of temperature 0, and leaves at the edge; {} steps", kLandSteps)};
+  return scene;
+}
+
 // Models for printing stand on z = 0. Those of the other formats mostly have y up.
 bool has_z_up(const std::filesystem::path& model) {
   std::string ending = model.extension().string();
@@ -127,9 +253,12 @@ bool has_z_up(const std::filesystem::path& model) {
 
 }  // namespace
 
-bool is_model_file(const std::filesystem::path& file) { return is_mesh_file(file) || is_voxel_file(file); }
+bool is_model_file(const std::filesystem::path& file) {
+  return is_mesh_file(file) || is_voxel_file(file) || is_height_file(file);
+}
 
 ModelScene scene_of_model(const std::filesystem::path& model) {
+  if (is_height_file(model)) return scene_of_land(model);
   const bool z_is_up = has_z_up(model);
   const Plan plan = plan_of(size_of(model, z_is_up));
   const auto& [x, y, z] = plan.grid;

@@ -1,4 +1,5 @@
-// A model without a scene gets one: it is fitted to a grid, on a floor, below a lamp.
+// A model without a scene gets one: it is fitted to a grid, on a floor, below a lamp. Heights become ground,
+// with lava on their highest place.
 #pragma once
 
 #include <filesystem>

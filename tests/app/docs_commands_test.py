@@ -83,7 +83,7 @@ class Reader:
         self.must("voxmelt sweep plan.toml --quiet")
         self.must("voxmelt export scene.toml --out exported --quiet")
         shutil.copytree(self.folder / "out", self.folder / "finished")
-        for name in ("hwmodel", "tests"):
+        for name in ("hwmodel", "scenes", "tests"):
             (self.folder / name).symlink_to(root / name)
         run = subprocess.Popen(["voxmelt", "run", "scene.toml", "--steps", "4000000", "--frame-every", "0", "--out", "out/stopped", "--quiet"],
                                cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)

@@ -249,6 +249,15 @@ class GeoTiff(InFolder):
         for number in range(3):
             self.assertEqual(self.digest(f"{number}.tif", None), wanted)
 
+    def test_a_map_without_a_scene(self):
+        (self.folder / "a.asc").write_text(grid(HEIGHTS))
+        for name, content in (("a.tif", tiff()), ("b.TIFF", tiff(kind=REAL, bits=32, tile=16, zipped=True))):
+            (self.folder / name).write_bytes(content)
+            lines = [voxmelt("digest", file, "--steps", 2, cwd=self.folder) for file in ("a.asc", name)]
+            self.assertEqual([line.returncode for line in lines], [0, 0], lines[1].stderr)
+            self.assertEqual(lines[0].stdout, lines[1].stdout)
+            self.assertEqual(lines[0].stderr.replace("a.asc", name), lines[1].stderr)
+
     def test_bad_files(self):
         bad_files.check(self, BAD, scene)
 
@@ -257,6 +266,9 @@ class GeoTiff(InFolder):
 class Without(InFolder):
     def test_the_command_that_brings_it_is_said(self):
         bad_files.check(self, {"a.tif": (tiff(), "this build has no libtiff: apt-get install libtiff-dev, then configure and build again")}, scene)
+        alone = voxmelt("run", "a.tif", cwd=self.folder)
+        self.assertEqual((alone.returncode, alone.stderr.count("\n")), (2, 1))
+        self.assertIn("a.tif: error: a.tif: this build has no libtiff: apt-get install libtiff-dev", alone.stderr)
 
 
 if __name__ == "__main__":

@@ -178,6 +178,53 @@ class Heights(unittest.TestCase):
                     continue  # it names another number than it writes
                 self.assertEqual(self.digest(f"{i}.asc", None)[0], wanted, (options, (self.folder / f"{i}.asc").read_text()[:300]))
 
+    # The ground is as wide as 128 cells. A peak in the plain is the middle of 25 heights that the filter and the spline
+    # weigh, and its own weight is (5/12)^2 there: 17.4 of 100. A cell is 100/48 high, so it stands 8.3 cells above the base.
+    def test_heights_without_a_scene(self):
+        peak = [[{(7, 2): 100, (0, 6): 100}.get((x, y), 0) for x in range(WIDTH)] for y in range(HEIGHT)]
+        (self.folder / "a b.asc").write_text(grid(peak))
+        first = voxmelt("run", "a b.asc", "--steps", 3, "--size", "32x32", cwd=self.folder)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertEqual([line for line in first.stderr.splitlines() if "assumed" in line], [
+            "assumed: the 11 x 7 heights of a b.asc are the ground of a grid of 128 x 66 x 81 cells, 0.48 to their unit: 0 to 100 is 48 cells high",
+            "assumed: lava of temperature 0.95 comes from [87, 11, 28], the highest place, until step 700",
+            "assumed: it cools in air of temperature 0, and leaves at the edge; 900 steps"])
+        self.assertIn("scene          out/a b.asc/scene.toml; change it", first.stdout)
+        scene_file = self.folder / "out/a b.asc/scene.toml"
+        digests = [voxmelt("digest", name, "--steps", 3, cwd=self.folder).stdout for name in ("a b.asc", scene_file)]
+        self.assertEqual(*digests)
+        self.assertRegex(digests[0], r"liquid [1-9]")
+        # A map that is twice as deep as wide, of elevations below 0; one that is long; one that is flat.
+        for name, text, said in (
+                ("deep.asc", grid([[h - 1000 for h in row] for row in peak], f"ncols {WIDTH}\nnrows {HEIGHT}\ndx 7\ndy 22\nNODATA_value -7\n"),
+                 "of a grid of 64 x 66 x 128 cells, 0.48 to their unit: -1000 to -900 is 48 cells high"),
+                ("long.asc", grid([[3, 1] + [2] * 98, [4] * 100]), "of a grid of 128 x 66 x 16 cells, 16 to their unit: 1 to 4 is 48"),
+                ("flat.asc", grid([[5] * 4] * 4), "of a grid of 128 x 66 x 128 cells, 1 to their unit: 5 to 5 is 0 cells high")):
+            (self.folder / name).write_text(text)
+            result = voxmelt("digest", name, "--steps", 1, cwd=self.folder)
+            self.assertEqual((result.returncode, said in result.stderr), (0, True), result.stderr)
+
+    def test_each_format_without_a_scene(self):
+        (self.folder / "a.asc").write_text(grid(HEIGHTS))
+        (self.folder / "a.PNG").write_bytes(png())
+        lines = [voxmelt("digest", name, "--steps", 2, cwd=self.folder) for name in ("a.asc", "a.PNG")]
+        self.assertEqual([line.returncode for line in lines], [0, 0])
+        self.assertEqual(lines[0].stdout, lines[1].stdout)
+        self.assertEqual(lines[0].stderr.replace("a.asc", "a.PNG"), lines[1].stderr)
+
+    def test_heights_that_are_none(self):
+        for name, content, expected in (("cut.png", BAD["cut.png"][0], "no PNG picture: it is truncated"),
+                                        ("colors.png", BAD["colors.png"][0], "a picture of heights is grey, and this one has colours"),
+                                        ("words.asc", b"a map\n", ":1: unknown header 'a'"), ("gone.asc", None, "cannot read gone.asc: No such file")):
+            with self.subTest(name):
+                if content is not None:
+                    (self.folder / name).write_bytes(content)
+                result = voxmelt("run", name, cwd=self.folder)
+                self.assertEqual(result.returncode, 2)
+                self.assertRegex(result.stderr, rf"\A{name}: error: [^\n]*\n\Z")
+                self.assertIn(expected, result.stderr)
+                self.assertFalse((self.folder / "out").exists())
+
     def test_bad_files(self):
         bad_files.check(self, BAD, scene)
 

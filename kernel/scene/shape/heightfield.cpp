@@ -17,6 +17,12 @@ std::array<double, 4> spline_weights(double t) {
           t * t * t / 6};
 }
 
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), lower_case);
+  return ending;
+}
+
 }  // namespace
 
 double Elevation::at(int column, int row) const {
@@ -24,9 +30,13 @@ double Elevation::at(int column, int row) const {
   return value[place(c, r)];
 }
 
+bool is_height_file(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".asc" || ending == ".tif" || ending == ".tiff" || ending == ".png";
+}
+
 Elevation read_elevation(const std::filesystem::path& file, const Place& place) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), lower_case);
+  const std::string ending = ending_of(file);
   if (ending == ".png") return read_png_heights(file, place);
   if (ending == ".tif" || ending == ".tiff") return read_tiff_heights(file, place);
   return read_esri_ascii(file, place);

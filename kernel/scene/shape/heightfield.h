@@ -38,6 +38,9 @@ Elevation read_png_heights(const std::filesystem::path& file, const Place& place
 Elevation read_tiff_heights(const std::filesystem::path& file, const Place& place);
 bool tiff_is_built_in();
 
+// Tells if the name of a file ends as those of heights do: .asc, .tif, .tiff or .png.
+bool is_height_file(const std::filesystem::path& file);
+
 // Reads one of them, by the ending of the name.
 Elevation read_elevation(const std::filesystem::path& file, const Place& place);
 
