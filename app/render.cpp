@@ -185,12 +185,12 @@ int run_render(RenderOptions options) {
   for (const auto& [option, file] :
        {std::pair("--depth", options.depth), std::pair("--normals", options.normals)})
     check_place(option, file, "");
+  catch_interrupts();
   std::optional<io::OutputFolder> out;
   if (options.turntable > 0 && !options.trace)
     out.emplace(options.out);
   else if (!options.trace)
     check_place("--out", options.out, "");
-  catch_interrupts();
 
   run::Simulation simulation = make_simulation(scene, options.common);
   run_to(scene, simulation, options);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/interrupt.h"
 #include "app/link_or_copy.h"
 #include "app/message.h"
 #include "app/written_states.h"
@@ -234,6 +235,7 @@ std::optional<Resumption> find_run(const fs::path& given, const std::optional<St
       if (note.empty()) note = changed_files(run.text);
       run.note = note;
       run.place = place;
+      catch_interrupts();  // from the folder on they end the run early, with what is taken over
       run.folder = std::make_unique<io::OutputFolder>(place, true);
       take_over(candidate, run.record, run.folder->partial());
       for (const fs::path& left : io::leavings_of(place))  // all their files are taken over

@@ -14,6 +14,7 @@
 
 #include "app/beginning.h"
 #include "app/commands.h"
+#include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
@@ -176,6 +177,7 @@ int run_rtl(RtlCommand command) {
   if (const std::string why = hwmodel::unwritten(design, c); !why.empty())
     throw UsageError(fmt::format("error: {}: {}", scene.file.string(), why));
   keep_inputs(scene, {{"--out", command.out}});
+  end_soon_at_interrupts();
   io::OutputFolder out(command.out);
 
   const std::uint32_t steps = command.passes * static_cast<std::uint32_t>(c.cascade);

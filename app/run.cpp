@@ -24,6 +24,7 @@
 #include "app/checkpoints.h"
 #include "app/commands.h"
 #include "app/film.h"
+#include "app/interrupt.h"
 #include "app/message.h"
 #include "app/options.h"
 #include "app/print.h"
@@ -36,6 +37,7 @@
 #include "app/written_states.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
+#include "kernel/scene/model_scene.h"
 
 namespace voxmelt::app {
 namespace {
@@ -113,8 +115,11 @@ void write_assumed_scene(const scene::Scene& scene, const io::OutputFolder& out)
   io::write_file(out.partial() / "scene.toml", scene.assumed_text);
 }
 
+// Models that differ in their formats alone have places of their own.
 std::string place_of(const RunOptions& options) {
-  return options.out.empty() ? "out/" + find_scene(options.common.scene).stem().string() : options.out;
+  if (!options.out.empty()) return options.out;
+  const std::filesystem::path scene = find_scene(options.common.scene);
+  return "out/" + (scene::is_model_file(scene) ? scene.filename() : scene.stem()).string();
 }
 
 PreparedRun prepare(const RunOptions& options) {
@@ -155,6 +160,7 @@ PreparedRun prepare(const RunOptions& options) {
   if (!options.journal.empty()) scene.files.emplace_back(options.journal);
   keep_inputs(scene, {{"--out", place}, {"--report", common.report}});
   check_report_place(common, place);
+  catch_interrupts();  // from the folder on they end the run early, and what was made until then is kept
   run.out = std::make_unique<io::OutputFolder>(place);
   write_assumed_scene(scene, *run.out);
   return run;

@@ -243,7 +243,6 @@ class Run {
 
 int run_to_end(PreparedRun run, Clock::time_point start) {
   const std::optional<Interval> interval = interval_of(run.record.checkpoint_every);
-  catch_interrupts();  // they end the run early; what was made until then is kept
   return Run(std::move(run), interval, start).to_end();
 }
 

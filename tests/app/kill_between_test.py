@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A run that dies between two system calls, at any of them (tests/app/kill_at.cpp), is resumed and gives what the
-run gives that nobody killed. Nothing is left but the output, and an old output stays until the new one is there.
+run gives that nobody killed. Nothing is left but the output, and an old output stays until the new one is there. A
+signal in the moment at which the folder is made ends it as at any other.
 
   kill_between_test.py PROGRAM KILL_AT FULL_DISK [PLACES]    so many places of each kind by chance; else all
 """
@@ -104,6 +105,21 @@ class Sweep:
         assert (files, report) == self.whole, "another outcome"
 
 
+    def ends(self, start, arguments, place):
+        """A signal while the folder is made, or soon after: what is made is kept, and nothing else is left."""
+        copy(start, self.work)
+        code, said = run(self.work, arguments, KILL_AT, KILL_AT=place, KILL_SIGNAL=signal.SIGTERM.value)
+        assert code == 4, f"exit code {code}: {said}"
+        left = sorted(p.name for p in (self.work / "out").glob("*"))
+        kept = ["o.incomplete"] if (start / "out/o.incomplete").exists() else []  # until the run is complete
+        assert left == ["o", *kept], f"left over: {left}"
+        code, said = run(self.work, RESUME)
+        assert code == 0, f"resumed: exit code {code}: {said}"
+        left = sorted(p.name for p in (self.work / "out").iterdir())
+        assert left == ["o"], f"left over: {left}"
+        assert outcome(self.work / "out/o", True) == self.whole, "another outcome"
+
+
 def main():
     chance = random.Random(SEED)
     print(f"seed {SEED}")
@@ -126,8 +142,16 @@ def main():
                 except AssertionError as error:
                     failures.append(f"{where}: {error}")
                     print(failures[-1], flush=True)
-            print(f"{kind}: {len(calls)} calls, {len(places)} places", flush=True)
-    print(f"{total} deaths, {len(failures)} with another outcome")
+            first = calls.index("fwrite") + 1
+            for place in range(1, first + 1) if PLACES is None else {1, 2, *chance.sample(range(1, first + 1), 2)}:
+                total += 1
+                try:
+                    sweep.ends(start, arguments, place)
+                except AssertionError as error:
+                    failures.append(f"{kind}, a signal before call {place} ({calls[place - 1]}): {error}")
+                    print(failures[-1], flush=True)
+            print(f"{kind}: {len(calls)} calls, {len(places)} places, {first} of a signal", flush=True)
+    print(f"{total} deaths and ends, {len(failures)} with another outcome")
     assert total > 0
     sys.exit(1 if failures else 0)
 

@@ -249,13 +249,13 @@ class Meshes(unittest.TestCase):
         # The cup is 9.75 wide, 8 high and 7.5 deep, with its handle. 96 cells of width are 9.846 to a unit.
         self.assertEqual(assumed[0], "assumed: z points up in cup of tea.stl; it is fitted to a grid of 128 x 85 x 106 cells, 9.846 to its unit")
         self.assertEqual(len(assumed), 3)
-        self.assertIn("scene          out/cup of tea/scene.toml; change it", first.stdout)
-        scene = self.folder / "out/cup of tea/scene.toml"
+        self.assertIn("scene          out/cup of tea.stl/scene.toml; change it", first.stdout)
+        scene = self.folder / "out/cup of tea.stl/scene.toml"
         digests = [voxmelt("digest", name, "--steps", 3, cwd=self.folder).stdout for name in ("cup of tea.stl", scene)]
         self.assertEqual(*digests)
         again = voxmelt("run", "cup of tea.stl", "--steps", 1, "--size", "32x32", "--quiet", cwd=self.folder)
         self.assertEqual((again.returncode, again.stderr, again.stdout), (0, "", ""))
-        on = voxmelt("run", "--resume", "out/cup of tea", "--steps", "+1", cwd=self.folder)
+        on = voxmelt("run", "--resume", "out/cup of tea.stl", "--steps", "+1", cwd=self.folder)
         self.assertEqual(on.returncode, 0, on.stderr)
         self.assertEqual(voxmelt("run", scene, "--steps", 0, "--out", "other", cwd=self.folder).returncode, 0)
 
@@ -263,7 +263,7 @@ class Meshes(unittest.TestCase):
         scene.write_text(text.replace("melting_point = 0.5", "melting_point = 0.4"))
         changed = voxmelt("run", "cup of tea.stl", "--steps", 1, cwd=self.folder)
         self.assertEqual(changed.returncode, 2)
-        self.assertIn("out/cup of tea/scene.toml: error: it is another one than is assumed of cup of tea.stl; run it, or take it away\n",
+        self.assertIn("out/cup of tea.stl/scene.toml: error: it is another one than is assumed of cup of tea.stl; run it, or take it away\n",
                       changed.stderr)
         self.assertIn("melting_point = 0.4", scene.read_text(), "what somebody changed is never lost")
 

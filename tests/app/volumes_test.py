@@ -410,7 +410,7 @@ class Volumes(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         # The body has 10 x 7 x 8 voxels. 96 cells of width are 9.6 to each, and the grid 6 higher and 32 deeper.
         self.assertIn("fitted to a grid of 128 x 74 x 109 cells, 9.6 to its unit", result.stderr)
-        self.assertIn('shape = "volume"', (self.folder / "out/a/scene.toml").read_text())
+        self.assertIn('shape = "volume"', (self.folder / "out/a.npy/scene.toml").read_text())
 
     # Voxels are whole cells and a mesh fills parts of some, so the masses differ by little.
     def test_the_cup_is_that_of_the_mesh(self):
