@@ -71,16 +71,17 @@ def crossings(vertices, faces, x, z):
     return sorted(found)
 
 
-def voxels_of(vertices, faces, side=96):
-    """A voxel is filled if the surface winds around its middle. y points up."""
+def voxels_of(vertices, faces, side=156):
+    """A voxel is filled if the surface winds around its middle. y points up. Without a scene the cup is 96 cells wide. A voxel
+    for each cell would be stairs, and two of them are too; but 13 for 8 cells come near to what a mesh gives."""
     low, high = ([end(v[axis] for v in vertices) for axis in range(3)] for end in (min, max))
-    to_unit = side / max(h - l for l, h in zip(low, high))  # a voxel is a cell, where the cup has no scene
+    to_unit = side / max(h - l for l, h in zip(low, high))
     nx, ny, nz = (math.ceil((h - l) * to_unit) for l, h in zip(low, high))
-    voxels = []
+    voxels, middle = [], (low[2] + high[2]) / 2  # the voxels reach as far beyond the cup in front as behind
     for i in range(nx):
         for k in range(nz):
             # a little beside the middle, where no corner of the cup lies
-            found = crossings(vertices, faces, low[0] + (i + 0.5003) / to_unit, low[2] + (k + 0.5007) / to_unit)
+            found = crossings(vertices, faces, low[0] + (i + 0.5003) / to_unit, middle + (k + 0.5007 - nz / 2) / to_unit)
             for j in range(ny):
                 if sum(way for height, way in found if height < low[1] + (j + 0.5) / to_unit) != 0:
                     voxels.append((i, j, k))
