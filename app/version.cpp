@@ -19,6 +19,12 @@ std::string compiler() {
 #endif
 }
 
+#ifdef VOXMELT_PYTHON_VERSION  // set where the package is built
+constexpr const char* kPython = "package for " VOXMELT_PYTHON_VERSION;
+#else
+constexpr const char* kPython = "no package (apt-get install pybind11-dev python3-dev)";
+#endif
+
 std::string instruction_sets() {
   std::string found;
   for (const cpu::InstructionSetRow& row : cpu::kInstructionSets) {
@@ -35,12 +41,15 @@ std::string version_number() { return VOXMELT_VERSION; }
 
 std::string version_text() {
   return fmt::format(
-      "voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}\nlibtiff: {}\nOpenVDB: {}",
+      "voxmelt {}\ncompiler: {}\nprocessor: {}\nffmpeg: {}\nlibwebp: {}\nlibtiff: {}\nOpenVDB: {}\nPython: "
+      "{}",
       version_number(), compiler(), instruction_sets(),
-      render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4)",
-      render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP)",
-      scene::tiff_is_built_in() ? "built in (GeoTIFF)" : "not built in (no GeoTIFF)",
-      io::missing_for_vdb().empty() ? "found (VDB)" : "not found (no VDB)");
+      render::ffmpeg_found() ? "found (MP4)" : "not found (no MP4: apt-get install ffmpeg)",
+      render::webp_is_built_in() ? "built in (WebP)" : "not built in (no WebP: apt-get install libwebp-dev)",
+      scene::tiff_is_built_in() ? "built in (GeoTIFF)"
+                                : "not built in (no GeoTIFF: apt-get install libtiff-dev)",
+      io::missing_for_vdb().empty() ? "found (VDB)" : "not found (no VDB: apt-get install libopenvdb-dev)",
+      kPython);
 }
 
 }  // namespace voxmelt::app
