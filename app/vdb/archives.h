@@ -19,7 +19,8 @@
 
 namespace voxmelt::vdb {
 
-// Writes grids one after another, where OpenVDB's own files want all of them in memory.
+// Writes grids one after another, and of a grid leaves, where OpenVDB's own files want all of them in memory.
+// It lacks their table with which others would load parts of a grid later.
 class OneByOne : public openvdb::io::Archive {
  public:
   explicit OneByOne(const std::string& place) {
@@ -31,9 +32,31 @@ class OneByOne : public openvdb::io::Archive {
     metadata.writeMeta(stream_);
     stream_.write(reinterpret_cast<const char*>(&grids), sizeof grids);
   }
-  void add(const openvdb::GridBase::ConstPtr& grid) {
-    openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type());
-    writeGrid(descriptor, grid, stream_, true);
+  // Writes all of a grid but the numbers of its leaves. These follow in the order of its tree, and then
+  // close().
+  void open(openvdb::FloatGrid& grid) {
+    descriptor_ = openvdb::io::GridDescriptor(grid.getName(), grid.type());
+    descriptor_.writeHeader(stream_);
+    places_ = stream_.tellp();
+    descriptor_.writeStreamPos(stream_);
+    descriptor_.setGridPos(stream_.tellp());
+    setGridCompression(stream_, grid);
+    grid.addStatsMetadata();
+    const auto numbers = static_cast<openvdb::Int64>(grid.constTree().leafCount()) *
+                         openvdb::FloatTree::LeafNodeType::SIZE * openvdb::Int64{sizeof(float)};
+    grid.insertMeta(openvdb::GridBase::META_FILE_MEM_BYTES,
+                    openvdb::Int64Metadata(static_cast<openvdb::Int64>(grid.memUsage()) + numbers));
+    grid.writeMeta(stream_);
+    grid.writeTransform(stream_);
+    grid.writeTopology(stream_);
+    descriptor_.setBlockPos(stream_.tellp());
+  }
+  void add(const openvdb::FloatTree::LeafNodeType& leaf) { leaf.writeBuffers(stream_); }
+  void close() {
+    descriptor_.setEndPos(stream_.tellp());
+    stream_.seekp(places_);
+    descriptor_.writeStreamPos(stream_);
+    stream_.seekp(descriptor_.getEndPos());
   }
   // OpenVDB gives each file an identifier at random. Equal states have equal files, so it goes with the
   // state.
@@ -52,6 +75,8 @@ class OneByOne : public openvdb::io::Archive {
 
  private:
   std::ofstream stream_;
+  openvdb::io::GridDescriptor descriptor_;
+  std::int64_t places_ = 0;  // where the descriptor says where the parts of its grid are
 };
 
 // A file of OpenVDB that reports where it is cut short, which OpenVDB's own files do not.

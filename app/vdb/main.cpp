@@ -19,7 +19,6 @@
 #include <exception>
 #include <filesystem>
 #include <ios>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -28,6 +27,7 @@
 
 #include "app/vdb/archives.h"
 #include "app/vdb/bounds.h"
+#include "app/vdb/write.h"
 #include "kernel/vdb/stream.h"
 
 namespace voxmelt::vdb {
@@ -39,85 +39,6 @@ constexpr std::uint64_t kRoom = std::uint64_t{128} << 20;     // bytes of memory
 constexpr std::uint64_t kTimes = 48;  // as many for a byte of the file: a packed inner node has some 40
 constexpr std::uint64_t kBytesPerSecond = 8 << 20;
 constexpr rlim_t kMostSeconds = 3600;
-
-// --- write -------------------------------------------------------------------------------------------------
-
-std::uint64_t identity_of(std::uint64_t before, const void* bytes, std::size_t count) {
-  for (std::size_t i = 0; i + 8 <= count; i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, static_cast<const char*>(bytes) + i, 8);
-    before = (before ^ word) * 0x100000001B3ULL;
-    before ^= before >> 29;
-  }
-  return before;
-}
-
-void add(openvdb::FloatTree& tree, const BrickRecord& brick, float unit) {
-  auto leaf = std::make_unique<openvdb::FloatTree::LeafNodeType>(
-      openvdb::Coord(brick.at[0], brick.at[1], brick.at[2]), 0.0F);
-  for (openvdb::Index i = 0; i < kCells; ++i)
-    if ((brick.active[i / 64] >> (i % 64) & 1) != 0)
-      leaf->setValueOn(i, static_cast<float>(brick.numbers[i]) / unit);
-  tree.addLeaf(leaf.release());
-}
-
-openvdb::FloatGrid::Ptr grid_of(const GridRecord& record) {
-  auto grid = openvdb::FloatGrid::create(0.0F);
-  grid->setName(record.name.data());
-  grid->setGridClass(record.is_fog != 0 ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
-  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-  transform->postTranslate(openvdb::Vec3d(0.5));  // a voxel lies around its middle, and cell 0 from 0 to 1
-  grid->setTransform(transform);
-  return grid;
-}
-
-void write(const std::string& place, std::int32_t step, std::int32_t grids) {
-  OneByOne file(place);
-  openvdb::MetaMap metadata;
-  metadata.insertMeta("creator", openvdb::StringMetadata("voxmelt"));
-  metadata.insertMeta("step", openvdb::Int32Metadata(step));
-  file.begin(metadata, grids);
-  std::uint64_t identity = static_cast<std::uint64_t>(step) + 0xCBF29CE484222325ULL;
-  openvdb::FloatGrid::Ptr grid;
-  float unit = 1;
-  const auto complete = [&] {
-    if (!grid) return;
-    grid->tree().prune();  // equal tiles become larger ones
-    file.add(grid);
-    grid.reset();
-  };
-  for (;;) {
-    Record kind{};
-    take(kind);
-    if (kind == Record::grid) {
-      complete();
-      GridRecord record;
-      take(record);
-      identity = identity_of(identity, &record, sizeof record);
-      grid = grid_of(record);
-      unit = static_cast<float>(record.unit);
-    } else if (kind == Record::brick && grid) {
-      BrickRecord brick;
-      take(brick);
-      identity = identity_of(identity, &brick, sizeof brick);
-      add(grid->tree(), brick, unit);
-    } else if (kind == Record::tile && grid) {
-      TileRecord tile;
-      take(tile);
-      identity = identity_of(identity, &tile, sizeof tile);
-      grid->tree().addTile(1, openvdb::Coord(tile.at[0], tile.at[1], tile.at[2]),
-                           static_cast<float>(tile.number) / unit, true);
-    } else if (kind == Record::end) {
-      complete();
-      file.end(identity);
-      return give("ok\n");
-    } else {
-      throw std::runtime_error("the input is no record");
-    }
-  }
-}
-
-// --- read --------------------------------------------------------------------------------------------------
 
 struct Wanted {
   std::string grid;
@@ -223,7 +144,8 @@ int run(const std::vector<std::string>& words) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   openvdb::initialize();
   if (words[1] == "write" && words.size() == 5) {
-    write(words[2], number_in<std::int32_t>(words[3]), number_in<std::int32_t>(words[4]));
+    Writer(words[2], number_in<std::int32_t>(words[3]), number_in<std::int32_t>(words[4])).write();
+    give("ok\n");
   } else if (words[1] == "read" && words.size() == 6) {
     Wanted wanted{words[3]};
     wanted.is_default = words[4].empty();

@@ -133,7 +133,7 @@ class Missing(Vdb):
         (self.folder / "CMakeCache.txt").touch()
         self.assertIn(f"{HOW}, then cmake {self.folder} && cmake --build {self.folder} --target voxmelt-vdb\n",
                       self.run_alone("digest", scene).stderr)
-        self.assertIn("OpenVDB: not found (no VDB)", self.run_alone("--version").stdout)
+        self.assertIn("OpenVDB: not found (no VDB: apt-get install libopenvdb-dev)", self.run_alone("--version").stdout)
         # All the others work.
         self.assertEqual(self.run_alone("export", "small.toml", "--format", "nrrd", "--out", "n").returncode, 0)
 
@@ -233,6 +233,15 @@ print(of["liquid"].any(), len(n.unique(of["amount"][matter])) > 2, (temperature 
         self.good("export", "shapes.toml", "--format", "vdb", "--out", "s")
         for grid in ("solid", "density"):
             self.assertEqual(self.digest(volume("s/volume.vdb", f'part = "{grid}"\nat = [1, 2, 3]\n')), self.digest(of_shapes()))
+
+    def test_a_large_grid_comes_back(self):
+        """OpenVDB has blocks of 128 voxels. Bricks of several are in one row here."""
+        boxes = [((1, 2, 3), (20, 9, 11)), ((120, 1, 120), (135, 9, 290)), ((3, 2, 130), (9, 130, 141))]
+        text = of_shapes(boxes).replace(HEAD, "[grid]\nsize = [140, 140, 300]\n")
+        write(self.folder, text, "shapes.toml")
+        self.good("export", "shapes.toml", "--format", "vdb", "--out", "s")
+        back = volume("s/volume.vdb", 'part = "solid"\nat = [1, 1, 3]\n').replace(HEAD, "[grid]\nsize = [140, 140, 300]\n")
+        self.assertEqual(self.digest(back), self.digest(text))
 
     def test_states_of_a_run_are_those_of_exports(self):
         options = ["--write", "vdb", "--write-every", 20, "--steps", 40, "--frame-every", 0]

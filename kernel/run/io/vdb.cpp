@@ -87,45 +87,63 @@ Words cells_of(const state::BitPlane& plane, state::Grid g, std::array<int, 3> a
   return cells;
 }
 
-void send_brick(vdb::Helper& helper, const GridOf& grid, const Moment& moment,
-                const rule::Materials* materials, std::array<int, 3> at, const Words& cells) {
-  vdb::BrickRecord brick{.at = {at[0], at[1], at[2]}, .active = cells};
-  bool is_tile = true;
-  for (std::size_t word = 0; word < cells.size(); ++word) {
-    is_tile = is_tile && cells[word] == ~std::uint64_t{0};
-    for (std::uint64_t left = cells[word]; left != 0; left &= left - 1) {
-      const int place = static_cast<int>(64 * word) + std::countr_zero(left);
-      const state::Slot slot =
-          moment.volume.at(at[0] + place / (vdb::kSide * vdb::kSide), at[1] + place / vdb::kSide % vdb::kSide,
-                           at[2] + place % vdb::kSide);
-      brick.numbers[static_cast<std::size_t>(place)] = grid.number(moment, materials, slot);
-    }
-  }
-  is_tile = is_tile && std::ranges::count(brick.numbers, brick.numbers[0]) == std::ssize(brick.numbers);
-  std::string record(1, static_cast<char>(is_tile ? vdb::Record::tile : vdb::Record::brick));
-  record += is_tile ? bytes_of(vdb::TileRecord{brick.at, brick.numbers[0]}) : bytes_of(brick);
-  helper.send(record);
-}
+// A brick of a grid: its active cells, and their numbers.
+struct Brick {
+  Words active{};
+  vdb::NumbersRecord numbers;
 
-void send_grid(vdb::Helper& helper, const GridOf& grid, const Moment& moment,
-               const rule::Materials* materials, const Poll& poll) {
+  bool is_empty() const {
+    return std::ranges::all_of(active, [](std::uint64_t word) { return word == 0; });
+  }
+  bool is_tile() const {
+    return std::ranges::all_of(active, [](std::uint64_t word) { return word == ~std::uint64_t{0}; }) &&
+           std::ranges::count(numbers.numbers, numbers.numbers[0]) == std::ssize(numbers.numbers);
+  }
+};
+
+Brick brick_at(const GridOf& grid, const Moment& moment, const rule::Materials* materials,
+               std::array<int, 3> at) {
   const state::Volume& volume = moment.volume;
   const state::Grid g = volume.grid;
+  const Masks masks{cells_of(volume.solid, g, at), cells_of(volume.liquid, g, at),
+                    cells_of(volume.inert, g, at)};
+  Brick brick{grid.cells(masks), {.at = {at[0], at[1], at[2]}}};
+  for (std::size_t word = 0; word < brick.active.size(); ++word)
+    for (std::uint64_t left = brick.active[word]; left != 0; left &= left - 1) {
+      const int place = static_cast<int>(64 * word) + std::countr_zero(left);
+      const state::Slot slot = volume.at(at[0] + place / (vdb::kSide * vdb::kSide),
+                                         at[1] + place / vdb::kSide % vdb::kSide, at[2] + place % vdb::kSide);
+      brick.numbers.numbers[static_cast<std::size_t>(place)] = grid.number(moment, materials, slot);
+    }
+  return brick;
+}
+
+template <class Bytes>
+void send(vdb::Helper& helper, vdb::Record kind, const Bytes& record) {
+  helper.send(std::string(1, static_cast<char>(kind)) + std::string(bytes_of(record)));
+}
+
+// Sends what is active, and then the numbers of what is not all alike.
+void send_grid(vdb::Helper& helper, const GridOf& grid, const Moment& moment,
+               const rule::Materials* materials, const Poll& poll) {
+  const state::Grid g = moment.volume.grid;
   vdb::GridRecord head{.unit = grid.unit, .is_fog = grid.is_fog ? 1U : 0U};
   std::string_view(grid.name).copy(head.name.data(), head.name.size() - 1);
-  helper.send(std::string(1, static_cast<char>(vdb::Record::grid)) + std::string(bytes_of(head)));
-  for (int z = 0; z < g.z; z += vdb::kSide) {
-    for (int y = 0; y < g.y; y += vdb::kSide)
-      for (int x = 0; x < g.x; x += vdb::kSide) {
-        const std::array at{x, y, z};
-        const Masks masks{cells_of(volume.solid, g, at), cells_of(volume.liquid, g, at),
-                          cells_of(volume.inert, g, at)};
-        const Words cells = grid.cells(masks);
-        if (std::ranges::any_of(cells, [](std::uint64_t word) { return word != 0; }))
-          send_brick(helper, grid, moment, materials, at, cells);
-      }
-    if (poll) poll();
-  }
+  send(helper, vdb::Record::grid, head);
+  for (const bool is_numbers : {false, true})
+    vdb::tree_order({g.x, g.y, g.z}, [&](std::array<int, 3> at) {
+      if (at[2] == 0 && poll) poll();
+      const Brick brick = brick_at(grid, moment, materials, at);
+      if (brick.is_empty()) return;
+      const auto& [x, y, z] = at;
+      const bool is_tile = brick.is_tile();
+      if (is_tile && !is_numbers)
+        send(helper, vdb::Record::tile, vdb::TileRecord{{x, y, z}, brick.numbers.numbers[0]});
+      else if (!is_tile && !is_numbers)
+        send(helper, vdb::Record::brick, vdb::BrickRecord{.at = {x, y, z}, .active = brick.active});
+      else if (!is_tile)
+        send(helper, vdb::Record::numbers, brick.numbers);
+    });
 }
 
 }  // namespace
