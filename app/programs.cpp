@@ -19,7 +19,12 @@ namespace fs = std::filesystem;
 std::string_view program_of(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "", what = argc > 2 ? argv[2] : "";
   for (const Elsewhere& row : kElsewhere)
-    if (row.command == command && row.there) return row.program;
+    if (row.command == command) {
+      if (row.there) return row.program;
+      throw UsageError(fmt::format(
+          "error: this build has no voxmelt {}: apt-get install {}, then configure and build again", command,
+          row.brings));
+    }
   if (command == "list")
     for (const ListedElsewhere& row : kListedElsewhere)
       if (row.what == what) return row.program;

@@ -15,11 +15,12 @@ struct Elsewhere {
   std::string_view command, program;
   std::string_view description;  // the command's text in --help of voxmelt
   bool there = true;             // this build has it
+  std::string_view brings = {};  // packages of Debian without which a build has it not
 };
 
 inline constexpr std::array kElsewhere{
     Elsewhere{"view", "voxmelt-view", "Melt it by hand, in a browser: sources, vents, numbers, camera",
-              VOXMELT_VIEW != 0},
+              VOXMELT_VIEW != 0, "libboost-dev libjpeg-dev"},
     Elsewhere{"sweep", "voxmelt-runs", "Make many runs that differ in some keys, and one table of them"},
     Elsewhere{"plot", "voxmelt-runs", "Draw the curves of one run, or of many, as one SVG"},
     Elsewhere{"bench", "voxmelt-measure",

@@ -42,7 +42,11 @@ VisibilityChoice choose_visibility(const std::string& asked) {
   std::string others;
   for (const visibility::ProviderRow& row : all_providers())
     if (row.built_in) others += (others.empty() ? "" : ", ") + std::string(row.name);
-  throw UsageError("--visibility " + asked + ": error: this build does not have it; it has " + others);
+  // Only Embree can be missing.
+  throw UsageError("--visibility " + asked +
+                   ": error: this build has no Embree: apt-get install libembree-dev, then configure and "
+                   "build again; it has " +
+                   others);
 }
 
 std::unique_ptr<visibility::Provider> make_provider(const VisibilityChoice& choice, int threads) {

@@ -42,6 +42,13 @@ class Programs(unittest.TestCase):
             self.assertEqual(wrong.returncode, 2, command)
             self.assertIn("--help says more", wrong.stderr)
 
+    def test_a_build_without_the_libraries_of_a_command_names_them(self):
+        if "  view " in run(PROGRAM, "--help").stdout:
+            self.skipTest("this build has voxmelt view")
+        missing = run(PROGRAM, "view", "lesson_drain")
+        said = "error: this build has no voxmelt view: apt-get install libboost-dev libjpeg-dev, then configure and build again\n"
+        self.assertEqual((missing.returncode, missing.stderr), (2, said))
+
     def test_it_finds_them_through_a_link(self):
         (self.folder / "melt").symlink_to(PROGRAM)
         self.assertEqual(run(self.folder / "melt", "list", "faults").stdout, run(PROGRAM, "list", "faults").stdout)
