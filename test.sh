@@ -22,4 +22,4 @@ cmake/install-dependencies.sh test
 mkdir -p build
 cmake --preset "$preset" -DVOXMELT_TESTS=ON > build/configure.log || { cat build/configure.log; exit 1; }
 cmake --build --preset "$preset"
-exec ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j 2 "${labels[@]}" ${arguments+"${arguments[@]}"}
+exec ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j $(($(nproc) + 1)) "${labels[@]}" ${arguments+"${arguments[@]}"}

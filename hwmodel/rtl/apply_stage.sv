@@ -1,5 +1,4 @@
-// The stage apply: what the patterns say flows (paper law, one share, reading `text`). What a cell gives
-// depends on itself alone. It is computed when the cell comes, for its southern neighbours, and once more
+// The stage apply: what the patterns say flows (paper law). What a cell gives depends on itself alone. It is computed when the cell comes, for its southern neighbours, and once more
 // behind the plane memory, for all others.
 //
 // A word in register 1 is at position 0, and its gifts are known at position 9. Sums are {content, energy,
@@ -7,6 +6,8 @@
 module apply_stage #(
     parameter P = 1,
     parameter HOT = 1,
+    parameter TABLE = 1,                // shares may follow from the pattern
+    parameter PRINTED = 1,              // the energy may be read as printed
     parameter DEPTH_SOUTH_EAST = 4096,  // of the memories: the longest delay, less one
     parameter DEPTH_NORTH = 32768,
     parameter DEPTH_EAST = 4096,
@@ -29,6 +30,9 @@ module apply_stage #(
     input  logic [23:0]         east,
     input  logic [23:0]         finished,     // of lanes that wait for lane P - 1
     input  logic [511:0]        shares,
+    input  logic [1023:0]       table_shares,
+    input  logic                by_table,
+    input  logic                printed,
     input  logic                eight,
     input  logic                hot,
     input  logic [47:0]         alpha
@@ -108,49 +112,47 @@ module apply_stage #(
         south1 <= south0_word;
       end
 
-    logic [15:0] left_amount9, left_energy9, unused_amount, unused_energy;
-    wire [31:0] left9 = {left_energy9, left_amount9};
+    logic [15:0] left_amount11, left_energy11, unused_amount, unused_energy;
+    wire [31:0] left11 = {left_energy11, left_amount11};
     logic [49:0] word9, south9_word, word12, south12;
-    logic [1:0] footing9;
+    logic [1:0] state1, footing9;
     logic [7:0] pattern9, pattern12, south9_pattern;
     logic [1:0] footing12;
     logic [31:0] left12;
     logic [63:0] south9_sum;
+    always_ff @(posedge clk) if (move) state1 <= word0[1:0];
     delay #(.WIDTH(8), .N(9)) patterns (.clk(clk), .en(move), .d(pattern0), .q(pattern9));
     delay #(.WIDTH(58), .N(3)) with_sums (
         .clk(clk), .en(move), .d({pattern9, word9}), .q({pattern12, word12}));
     delay #(.WIDTH(50), .N(9)) early_words (.clk(clk), .en(move), .d(word0), .q(word9));
-    wire [1:0] ground = south1[1:0] == voxmelt_pkg::SOLID ? 2'd1 : south1[1:0] == voxmelt_pkg::INERT ? 2'd2 : 2'd0;
+    wire [1:0] footing0 = floor0 ? 2'd2 : footing_on(state1), south_footing0 = floor0 ? 2'd2 : footing_on(south1[1:0]);
     delay #(.WIDTH(124), .N(9)) south_words (
-        .clk(clk), .en(move), .d({south0_sum, floor0 ? 2'd2 : ground, south0_pattern, south0_word}),
+        .clk(clk), .en(move), .d({south0_sum, south_footing0, south0_pattern, south0_word}),
         .q({south9_sum, footing9, south9_pattern, south9_word}));
-    delay #(.WIDTH(84), .N(3)) late_words (
-        .clk(clk), .en(move), .d({left9, footing9, south9_word}), .q({left12, footing12, south12}));
+    delay #(.WIDTH(52), .N(3)) late_words (
+        .clk(clk), .en(move), .d({footing9, south9_word}), .q({footing12, south12}));
+    always_ff @(posedge clk) if (move) left12 <= left11;
 
-    logic [13:0] amount9, energy9, south_amount9, south_energy9;
-    logic [29:0] content9, south_content9;
-    logic [27:0] content_corner9, south_content_corner9;
-    gift_unit gift (
-        .clk(clk), .move(move), .stored(word0), .pattern(pattern0), .shares(shares), .eight(eight),
-        .amount(amount9), .energy(energy9), .content(content9), .content_diagonal(content_corner9),
-        .left_amount(unused_amount), .left_energy(unused_energy));
-    gift_unit south_gift (
-        .clk(clk), .move(move), .stored(south0_word), .pattern(south0_pattern), .shares(shares), .eight(eight),
-        .amount(south_amount9), .energy(south_energy9), .content(south_content9),
-        .content_diagonal(south_content_corner9), .left_amount(left_amount9), .left_energy(left_energy9));
-    wire [63:0] axis = {2'd0, content9, 2'd0, energy9, 2'd0, amount9};
-    wire [63:0] corner = {4'd0, content_corner9, 4'd0, energy9[13:2], 4'd0, amount9[13:2]};
-    wire [63:0] south_axis = {2'd0, south_content9, 2'd0, south_energy9, 2'd0, south_amount9};
-    wire [63:0] south_corner_gift = {4'd0, south_content_corner9, 4'd0, south_energy9[13:2], 4'd0, south_amount9[13:2]};
+    logic [255:0] gifts, south_gifts;
+    logic [63:0] corner, south_corner_gift;
+    gift_unit #(.TABLE(TABLE), .PRINTED(PRINTED)) gift (
+        .clk(clk), .move(move), .stored(word0), .pattern(pattern0), .footing(footing0), .shares(shares),
+        .by_table(by_table), .table_shares(table_shares), .printed(printed), .alpha(alpha), .eight(eight),
+        .axes(gifts), .corner(corner), .left_amount(unused_amount), .left_energy(unused_energy));
+    gift_unit #(.TABLE(TABLE), .PRINTED(PRINTED)) south_gift (
+        .clk(clk), .move(move), .stored(south0_word), .pattern(south0_pattern), .footing(south_footing0),
+        .shares(shares), .by_table(by_table), .table_shares(table_shares), .printed(printed), .alpha(alpha),
+        .eight(eight), .axes(south_gifts), .corner(south_corner_gift), .left_amount(left_amount11),
+        .left_energy(left_energy11));
 
     wire has_west = lane == 0 ? west9 : 1'b1;
-    assign here_south[lane*64+:64] = south9 & pattern9[3] ? axis : 64'd0;
+    assign here_south[lane*64+:64] = south9 & pattern9[3] ? gifts[192+:64] : 64'd0;
     assign here_corner[lane*64+:64] = has_west & south9 & pattern9[7] ? corner : 64'd0;
-    assign south_north[lane*64+:64] = south9 & south9_pattern[2] ? south_axis : 64'd0;
-    assign south_goes_west[lane*64+:64] = has_west & south9_pattern[1] ? south_axis : 64'd0;
+    assign south_north[lane*64+:64] = south9 & south9_pattern[2] ? south_gifts[128+:64] : 64'd0;
+    assign south_goes_west[lane*64+:64] = has_west & south9_pattern[1] ? south_gifts[64+:64] : 64'd0;
     assign south_corner[lane*64+:64] = has_west & south9 & south9_pattern[6] ? south_corner_gift : 64'd0;
     assign here_east[lane*64+:64] = pattern9[5] ? corner : 64'd0;
-    assign south_east_axis[lane*64+:64] = south9_pattern[0] ? south_axis : 64'd0;
+    assign south_east_axis[lane*64+:64] = south9_pattern[0] ? south_gifts[0+:64] : 64'd0;
     assign south_east_corner[lane*64+:64] = south9_pattern[4] ? south_corner_gift : 64'd0;
 
     wire [63:0] from_west_corner = ~(has_west & south9) ? 64'd0 : lane == 0 ? corner_gift : here_east[LAST*64+:64];
@@ -198,19 +200,19 @@ module apply_stage #(
           late11 <= added(late10, corner10);
           rest11 <= rest10;
         end
-      finish_unit finish (
+      finish_unit #(.PRINTED(PRINTED)) finish (
           .clk(clk), .move(move), .stored(50'(rest11[CELL-1:0])), .footing(rest11[CELL+:2]),
           .left_amount(rest11[CELL+2+:16]), .left_energy(rest11[CELL+18+:16]), .amount_in(late11[15:0]),
           .energy_in(late11[31:16]), .content_in(late11[63:32]), .dither3(late3), .dither4(late4), .hot(hot),
-          .alpha(alpha), .finished(finished_word));
+          .printed(printed), .alpha(alpha), .finished(finished_word));
       assign last_word = finished_word;
     end else begin : ready
       logic [CELL-1:0] later;
-      finish_unit finish (
+      finish_unit #(.PRINTED(PRINTED)) finish (
           .clk(clk), .move(move), .stored(south12), .footing(footing12), .left_amount(left12[15:0]),
           .left_energy(left12[31:16]), .amount_in(south12_sum[15:0]), .energy_in(south12_sum[31:16]),
-          .content_in(south12_sum[63:32]), .dither3(early3), .dither4(early4), .hot(hot), .alpha(alpha),
-          .finished(finished_word));
+          .content_in(south12_sum[63:32]), .dither3(early3), .dither4(early4), .hot(hot), .printed(printed),
+          .alpha(alpha), .finished(finished_word));
       line_memory #(.WIDTH(CELL), .DEPTH(DEPTH_FINISHED)) waiting (
           .clk(clk), .rst(rst), .en(move), .delay(finished), .d(finished_word[CELL-1:0]), .q(later));
       assign last_word = 50'(later);
@@ -219,6 +221,10 @@ module apply_stage #(
         .stored(last_word), .exposed_axes(2'd0), .pattern(8'd0), .beside_wall(1'b0), .touches(1'b0),
         .is_set(1'b0), .cell_out(out_cells[lane*67+:67]));
   end
+
+  function automatic [1:0] footing_on(input [1:0] below);
+    footing_on = below == voxmelt_pkg::SOLID ? 2'd1 : below == voxmelt_pkg::INERT ? 2'd2 : 2'd0;
+  endfunction
 
   function automatic [63:0] added(input [63:0] a, input [63:0] b);
     added = {a[63:32] + b[63:32], a[31:16] + b[31:16], a[15:0] + b[15:0]};

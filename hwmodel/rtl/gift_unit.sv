@@ -1,75 +1,90 @@
 // What a cell gives to each of its directions, and what it keeps (docs/automaton.md, section 9). A diagonal
-// gets a quarter.
-module gift_unit (
-    input  logic         clk,
-    input  logic         move,
-    input  logic [49:0]  stored,
-    input  logic [7:0]   pattern,
-    input  logic [511:0] shares,      // by temperature, 32 of them
-    input  logic         eight,
-    output logic [13:0]  amount,      // to an axis; all of these 9 moves later
-    output logic [13:0]  energy,
-    output logic [29:0]  content,     // amount x heat
-    output logic [27:0]  content_diagonal,
-    output logic [15:0]  left_amount,
-    output logic [15:0]  left_energy
+// gets a quarter. Gifts are {content, energy, amount}, where the content is amount x heat.
+//
+// Without TABLE all axes get the same. Without PRINTED no friction acts here.
+module gift_unit #(
+    parameter TABLE = 1,
+    parameter PRINTED = 1
+) (
+    input  logic          clk,
+    input  logic          move,
+    input  logic [49:0]   stored,
+    input  logic [7:0]    pattern,
+    input  logic [1:0]    footing,       // 0 liquid, 1 solid, 2 floor
+    input  logic [511:0]  shares,        // by temperature, 32 of them
+    input  logic          by_table,
+    input  logic [1023:0] table_shares,  // by the pattern's axes, four each
+    input  logic          printed,
+    input  logic [47:0]   alpha,
+    input  logic          eight,
+    output logic [255:0]  axes,          // to each axis, 9 moves later
+    output logic [63:0]   corner,        // to a diagonal
+    output logic [15:0]   left_amount,   // 11 moves later
+    output logic [15:0]   left_energy
 );
+  localparam WAYS = TABLE != 0 ? 4 : 1;
   wire [15:0] cap = eight ? 16'd4096 : 16'd8192;
-  logic [49:0] word1, word5;
-  logic [7:0] pattern1, pattern5, pattern6;
-  logic [15:0] share1, flow5, part5, heat6, held6, held_energy6, held7, held_energy7;
-  logic [13:0] amount6, energy6, amount7, energy7, amount8, energy8;
-  logic [15:0] axes7, axes_energy7, corners7, corners_energy7, left8, left_energy8;
-  logic signed [34:0] part4, energy4, content9, content_diagonal9;
-  product of_amount (.clk(clk), .en(move), .a($signed({2'b0, word1[17:2]})), .b({1'b0, share1}), .p(part4));
-  product of_energy (.clk(clk), .en(move), .a($signed({2'b0, word1[33:18]})), .b({1'b0, share1}), .p(energy4));
+  logic [49:0] word1, word5, word6;
+  logic [7:0] pattern1, pattern5, pattern9;
+  logic [31:0] held9, held10;
+  logic [15:0] axes10, axes_energy10, corners10, corners_energy10, alpha6;
+  logic [WAYS*16-1:0] flow5, part5;
+  logic [WAYS*14-1:0] amounts6, energies6;
   delay #(.WIDTH(58), .N(4)) waits (
       .clk(clk), .en(move), .d({pattern1, word1}), .q({pattern5, word5}));
-  product of_heat (
-      .clk(clk), .en(move), .a($signed({4'd0, amount6})), .b({1'b0, heat6}), .p(content9));
-  product of_heat_diagonal (
-      .clk(clk), .en(move), .a($signed({6'd0, amount6[13:2]})), .b({1'b0, heat6}), .p(content_diagonal9));
-  assign content = content9[29:0];
-  assign content_diagonal = content_diagonal9[27:0];
+  delay #(.WIDTH(40), .N(4)) keeps (
+      .clk(clk), .en(move), .d({pattern5, word5[33:2]}), .q({pattern9, held9}));
 
-  function automatic [15:0] times(input [3:0] ways, input [13:0] one);
-    times = (16'(one) & {16{ways[0]}}) + (16'(one) & {16{ways[1]}})
-          + ((16'(one) & {16{ways[2]}}) + (16'(one) & {16{ways[3]}}));
+  if (PRINTED != 0) begin : rubs
+    logic [1:0] footing6;
+    delay #(.WIDTH(2), .N(6)) feet (.clk(clk), .en(move), .d(footing), .q(footing6));
+    assign alpha6 = footing6 == 2'd0 ? alpha[15:0] : footing6 == 2'd1 ? alpha[31:16] : alpha[47:32];
+  end else begin : glides
+    assign alpha6 = 16'd0;
+  end
+
+  for (genvar way = 0; way < WAYS; way++) begin : ways
+    logic [15:0] share1;
+    logic signed [34:0] part4, energy4;
+    product of_amount (.clk(clk), .en(move), .a($signed({2'b0, word1[17:2]})), .b({1'b0, share1}), .p(part4));
+    product of_energy (.clk(clk), .en(move), .a($signed({2'b0, word1[33:18]})), .b({1'b0, share1}), .p(energy4));
+    sent_unit #(.PRINTED(PRINTED)) sent (
+        .clk(clk), .move(move), .amount(amounts6[way*14+:14]), .energy(energies6[way*14+:14]),
+        .heat(word6[49:34]), .alpha(alpha6), .printed(printed), .gift(axes[way*64+:64]));
+    always_ff @(posedge clk)
+      if (move) begin
+        share1 <= TABLE != 0 && by_table ? table_shares[{pattern[3:0], 2'(way), 4'd0}+:16]
+                                         : shares[{stored[49:45], 4'd0}+:16];
+        flow5[way*16+:16] <= part4[31:16] < cap ? part4[31:16] : cap;
+        part5[way*16+:16] <= energy4[31:16] < cap ? energy4[31:16] : cap;
+        amounts6[way*14+:14] <= pattern5 == 8'd0 ? 14'd0 : flow5[way*16+:14];
+        energies6[way*14+:14] <= pattern5 == 8'd0 ? 14'd0 : part5[way*16+:14];  // no cell has more energy than amount
+      end
+  end
+  for (genvar way = WAYS; way < 4; way++) begin : alike
+    assign axes[way*64+:64] = axes[63:0];
+  end
+  sent_unit #(.PRINTED(PRINTED)) sent_corner (
+      .clk(clk), .move(move), .amount({2'd0, amounts6[13:2]}), .energy({2'd0, energies6[13:2]}),
+      .heat(word6[49:34]), .alpha(alpha6), .printed(printed), .gift(corner));
+
+  function automatic [15:0] four(input [3:0] to, input [15:0] a, input [15:0] b, input [15:0] c, input [15:0] d);
+    four = ((a & {16{to[0]}}) + (b & {16{to[1]}})) + ((c & {16{to[2]}}) + (d & {16{to[3]}}));
   endfunction
 
   always_ff @(posedge clk)
     if (move) begin
       word1 <= stored;
       pattern1 <= pattern;
-      share1 <= shares[{stored[49:45], 4'd0}+:16];
+      word6 <= word5;
 
-      flow5 <= part4[31:16] < cap ? part4[31:16] : cap;
-      part5 <= energy4[31:16] < cap ? energy4[31:16] : cap;
+      axes10 <= four(pattern9[3:0], axes[15:0], axes[79:64], axes[143:128], axes[207:192]);
+      axes_energy10 <= four(pattern9[3:0], axes[31:16], axes[95:80], axes[159:144], axes[223:208]);
+      corners10 <= four(pattern9[7:4], corner[15:0], corner[15:0], corner[15:0], corner[15:0]);
+      corners_energy10 <= four(pattern9[7:4], corner[31:16], corner[31:16], corner[31:16], corner[31:16]);
+      held10 <= held9;
 
-      pattern6 <= pattern5;
-      amount6 <= pattern5 == 8'd0 ? 14'd0 : flow5[13:0];
-      energy6 <= pattern5 == 8'd0 ? 14'd0 : part5[13:0];  // no more, as no cell has more energy than amount
-      held6 <= word5[17:2];
-      held_energy6 <= word5[33:18];
-      heat6 <= word5[49:34];
-
-      axes7 <= times(pattern6[3:0], amount6);
-      axes_energy7 <= times(pattern6[3:0], energy6);
-      corners7 <= times(pattern6[7:4], {2'd0, amount6[13:2]});
-      corners_energy7 <= times(pattern6[7:4], {2'd0, energy6[13:2]});
-      held7 <= held6;
-      held_energy7 <= held_energy6;
-      amount7 <= amount6;
-      energy7 <= energy6;
-
-      left8 <= held7 - axes7 - corners7;
-      left_energy8 <= held_energy7 - axes_energy7 - corners_energy7;
-      amount8 <= amount7;
-      energy8 <= energy7;
-
-      left_amount <= left8;
-      left_energy <= left_energy8;
-      amount <= amount8;
-      energy <= energy8;
+      left_amount <= held10[15:0] - axes10 - corners10;
+      left_energy <= held10[31:16] - axes_energy10 - corners_energy10;
     end
 endmodule

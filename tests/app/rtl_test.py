@@ -27,7 +27,7 @@ class Rtl(unittest.TestCase):
 
     def test_every_stage_of_a_scene(self):
         for scene, first, lanes in ("lesson_oven", 300, 4), ("lesson_spread", 100, 1), ("proving_ground", 40, 4), (
-                "proving_ground_viscous", 40, 4):
+                "proving_ground_viscous", 40, 4), ("paper_literal", 200, 4), ("paper_literal_printed", 200, 1):
             done = self.verify(scene, "--from", first, "--rtl", "all", lanes=lanes)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertRegex(done.stdout, r"\d{4,} cells compared .*: no difference; digest [0-9a-f]{16}")
@@ -64,9 +64,9 @@ class Rtl(unittest.TestCase):
         done = self.verify("lesson_oven", "--rtl", "all", lanes=3)
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"error: --rtl: stages in SystemVerilog are compiled for [0-9, ]+ lanes, not for 3")
-        done = self.verify("paper_literal", "--rtl", "all")
+        done = self.verify("candle", "--rtl", "all")
         self.assertEqual((done.returncode, done.stderr.strip()),
-                         (2, "error: --rtl: apply in SystemVerilog: every direction has the same share"))
+                         (2, "error: --rtl: fall in SystemVerilog: there is one material"))
 
     def test_a_grid_that_is_too_low(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -24,6 +24,7 @@ constexpr PortBits kPorts[] = {
     {"slump_diagonal", 20}, {"alpha", 48},         {"thermal", 1},      {"mobility_reference", 16},
     {"mobility_rate", 16},  {"yield_stress", 24},  {"stiffness", 4},    {"melt_range", 16},
     {"melt_shift", 2},      {"melt_scale", 14},    {"last_x", 12},      {"open_border", 1},
+    {"by_table", 1},
 };
 
 }  // namespace

@@ -191,6 +191,18 @@ class Ports {
     add("eight", p_.flow.paper.neighbours == 8 ? 1 : 0);
   }
 
+  // The shares of the axes by pattern, where a table tells them.
+  void add_table_shares() {
+    const PaperFlow flow(p_.flow);
+    std::vector<std::uint32_t> words;
+    for (std::int64_t pattern = 0; pattern < 16; ++pattern)
+      for (int way = 0; way < 4; way += 2)
+        words.push_back(static_cast<std::uint32_t>(flow.table_share(pattern, way) |
+                                                   flow.table_share(pattern, way + 1) << 16));
+    ports_.wide.emplace_back("table_shares", words);
+    add("by_table", p_.flow.paper.use_table ? 1 : 0);
+  }
+
   void add_pattern() {
     const rule::PaperLaw& law = p_.flow.paper;
     const std::int64_t blocks = (design_.shape.grid.x + 7) / 8;
@@ -214,14 +226,14 @@ class Ports {
 
   void add_apply() {
     const rule::PaperLaw& law = p_.flow.paper;
-    if (law.use_table) ports_.refusal = "every direction has the same share";
-    if (law.reading != rule::EnergyReading::text) ports_.refusal = "the energy's reading is `text`";
     add_memories("south_east", "north", line_.column - 3, line_.plane - 13);
     const std::int64_t east = add_memory("east", line_.column - 3);
     add("finished", east + 2);
     add("lag", line_.plane + east + 40);
     add_shares();
+    add_table_shares();
     add("hot", design_.hot() ? 1 : 0);
+    add("printed", law.reading == rule::EnergyReading::printed ? 1 : 0);
     add("alpha", static_cast<std::int64_t>(packed(law.alpha_liquid, law.alpha_solid, law.alpha_floor, 16)));
   }
 

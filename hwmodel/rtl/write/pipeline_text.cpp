@@ -36,6 +36,7 @@ std::string constant_of(const std::vector<std::uint32_t>& words, int bits) {
 int bits_of_wide(std::string_view name, const RtlSizes& sizes) {
   if (name == "keys") return 320;
   if (name == "shares") return 512;
+  if (name == "table_shares") return 1024;
   return 199 * static_cast<int>(sizes.vents + sizes.drains);
 }
 
@@ -207,6 +208,11 @@ class Writer {
     if (kind == walls || kind == pattern || kind == apply || kind == fall || kind == settle ||
         kind == viscous_spread)
       text += fmt::format(", .HOT({})", hot_);
+    if (kind == apply) {
+      const rule::PaperLaw& law = design_.parameters.flow.paper;
+      text += fmt::format(", .TABLE({}), .PRINTED({})", int{law.use_table},
+                          int{law.reading == rule::EnergyReading::printed});
+    }
     if (kind == source) text += fmt::format(", .VENTS({}), .DRAINS({})", sizes_.vents, sizes_.drains);
     if (kind == exchange) {
       text += fmt::format(", .HEIGHT({})", design_.shape.grid.y);

@@ -10,6 +10,7 @@ a source of hwmodel/rtl. Verilator compiles the stage anew, and the test program
 The first difference must be in the stage that was changed.
 """
 import argparse
+import os
 import re
 import subprocess
 import sys
@@ -110,7 +111,7 @@ def verdict_of(bug, folder):
     test = "".join(part.capitalize() for part in bug["stage"].split("_"))
     try:
         done = subprocess.run([program, f"--gtest_filter=StagesInRtl.{test}*"], cwd=ROOT, capture_output=True, text=True,
-                              timeout=300)
+                              env=os.environ | {"VOXMELT_ROUNDS": "all"}, timeout=300)
     except subprocess.TimeoutExpired:
         return "HANGS", False
     if done.returncode == 0:

@@ -1,4 +1,4 @@
-// A cell of spread that has got all that it will get (docs/automaton.md, section 9, reading `text`).
+// A cell of spread that has got all that it will get (docs/automaton.md, section 9).
 module proof (
     input logic clk,
     input logic [49:0] stored,
@@ -11,6 +11,7 @@ module proof (
     input logic [15:0] dither3,
     input logic [15:0] dither4,
     input logic hot,
+    input logic printed,
     input logic [47:0] alpha
 );
   logic [49:0] finished;
@@ -18,7 +19,7 @@ module proof (
   finish_unit dut (
       .clk(clk), .move(1'b1), .stored(stored), .footing(footing), .left_amount(left_amount), .left_energy(left_energy),
       .amount_in(amount_in), .energy_in(energy_in), .content_in(content_in), .dither3(dither3), .dither4(dither4),
-      .hot(hot), .alpha(alpha), .finished(finished), .content4(content4));
+      .hot(hot), .printed(printed), .alpha(alpha), .finished(finished), .content4(content4));
   logic [7:0] age;
   moves count (.clk(clk), .age(age));
   logic [49:0] word;
@@ -35,7 +36,12 @@ module proof (
   assign rubbed = 35'($signed({2'b0, energy_in}) * $signed({1'b0, 1'b0, factor}));
   past #(.WIDTH(35), .N(3)) friction (.clk(clk), .d(rubbed), .q(rubbed3));
   past #(.WIDTH(35), .N(22)) later (.clk(clk), .d(35'(rubbed3 + $signed({19'd0, dither3}))), .q(rubbed25));
-  wire [16:0] together = 17'(kept_energy) + 17'(rubbed25[31:16]);
+  logic [15:0] energy_in25;
+  logic printed1;
+  past #(.WIDTH(16), .N(25)) as_it_came (.clk(clk), .d(energy_in), .q(energy_in25));
+  past #(.WIDTH(1), .N(1)) stays (.clk(clk), .d(printed), .q(printed1));
+  always_comb if (age != 8'd0) assume (printed == printed1);
+  wire [16:0] together = 17'(kept_energy) + 17'(printed ? energy_in25 : rubbed25[31:16]);
   wire [16:0] least = together < 17'(amount) ? together : 17'(amount);
   assign kept = 35'($signed({2'b0, left_amount}) * $signed({1'b0, 1'b0, stored[49:34]}));
   past #(.WIDTH(32), .N(4)) contents (.clk(clk), .d(kept[31:0] + content_in), .q(content4_due));
