@@ -22,6 +22,7 @@ void each_number(AnyDevice& device, const Visit& visit) {
   logic("port", f.port);
   logic("channel", f.channel);
   logic("coder", f.coder);
+  logic("control", f.control);
   logic("divider", f.divider);
   logic("random_block", f.random_block);
   for (auto& [kind, cost] : f.stages) logic("stage." + std::string(name_of(kind)), cost.lane);

@@ -40,7 +40,8 @@ struct Family {
   std::vector<MemoryShape> bram, uram;
   int lutram_words = 1, lutram_bits = 1, lutram_luts = 1, mux_ways = 2, deepest_lutram = 1;
   int register_words = 1;
-  Widths product;  // signed factors of a DSP
+  Widths product;     // signed factors of a DSP
+  LogicCost control;  // what a stage has but once, whatever its lanes
   LogicCost divider, random_block, channel, port, coder, base;
   int port_bits = 0, port_words = 0;  // the buffer of a port to the memory
   std::map<StageKind, StageCost> stages;

@@ -50,6 +50,7 @@ json family_json(const Family& f) {
               {"port_bits", f.port_bits},
               {"port_words", f.port_words},
               {"divider", logic_json(f.divider)},
+              {"control", logic_json(f.control)},
               {"random_block", logic_json(f.random_block)},
               {"channel", logic_json(f.channel)},
               {"port", logic_json(f.port)},

@@ -83,6 +83,7 @@ Family load_family(const std::string& name, const std::string& place,
   read_memories(memory, f);
   f.product = {whole(product, "wide", 2, 256), whole(product, "narrow", 2, 256)};
   product.finish();
+  f.control = logic_of(root, "control", given);
   f.divider = logic_of(root, "divider", given);
   f.random_block = logic_of(root, "random_block", given);
   f.channel = logic_of(root, "channel", given);

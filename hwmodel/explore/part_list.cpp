@@ -63,10 +63,10 @@ Logic logic_of(const PartList& parts, const Family& family) {
     const LogicCost& lane = family.stages.at(part.kind).lane;
     const std::int64_t dividers = part.units.dividers * lanes,
                        blocks = part.units.random_blocks * blocks_of_token(parts.design.shape.lanes);
-    all.lut +=
-        lanes * lane.lut.value + dividers * family.divider.lut.value + blocks * family.random_block.lut.value;
-    all.ff +=
-        lanes * lane.ff.value + dividers * family.divider.ff.value + blocks * family.random_block.ff.value;
+    all.lut += family.control.lut.value + lanes * lane.lut.value + dividers * family.divider.lut.value +
+               blocks * family.random_block.lut.value;
+    all.ff += family.control.ff.value + lanes * lane.ff.value + dividers * family.divider.ff.value +
+              blocks * family.random_block.ff.value;
   }
   return all;
 }

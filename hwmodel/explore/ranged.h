@@ -19,9 +19,7 @@ struct Source {
   std::string_view name;
   double of_logic, of_device;  // LUTs and flip-flops; the device's clock and fill
 };
-// This is the one table, and its factors are judgement. A second synthesis found a divider that is 1.05 times
-// as large, and a random block as large as before. Where a number was found to be further off, its file says
-// a range.
+// This is the one table, and its factors are judgement.
 inline constexpr std::array kSources{Source{"synthesised", 1.25, 1.1}, Source{"counted", 2, 1.25},
                                      Source{"assumed", 3, 1.5}};
 

@@ -315,7 +315,7 @@ def fixed_of(report, parts, hw):
     for stage in parts["stages"]:
         c, blocks = f["stages"][stage["name"]], stage["random_blocks_per_8_lanes"] * blocks_of(p)
         for name in ("lut", "ff"):
-            cost = p * (c[name] + stage["dividers"] * f["divider"][name]) + blocks * f["random_block"][name]
+            cost = p * (c[name] + stage["dividers"] * f["divider"][name]) + blocks * f["random_block"][name] + f["control"][name]
             lut, ff = (lut + t * cost, ff) if name == "lut" else (lut, ff + t * cost)
         a, b = f["product"]
         for i in range(stage["multipliers"] if c["multipliers"] else 0):

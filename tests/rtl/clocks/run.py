@@ -13,15 +13,16 @@ import argparse
 import hashlib
 import json
 import re
-import resource
-import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-RTL = HERE.parents[2] / "hwmodel/rtl"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE.parent))
+from yosys import run, sources_of, yosys
+
 RESULTS = HERE / "results.json"
 KEYS = {"part", "stage", "with", "tied", "note"}
 SEEDS, SECONDS = (1, 2, 3), 240  # of nextpnr, which now and then does not end
@@ -50,48 +51,17 @@ def name_of(part):
     return f"{part['part']} {parameters} {tied}".replace("  ", " ").strip()
 
 
-def sources_of(part):
-    """The file of a part, and those of the parts in it."""
-    found, wanted = [], [part["part"]]
-    while wanted:
-        name = wanted.pop()
-        file = RTL / f"{name}.sv"
-        if not file.is_file():
-            raise FileNotFoundError(f"no part {name}")
-        if file in found:
-            continue
-        found.append(file)
-        text = re.sub(r"//.*", "", file.read_text())
-        wanted += [word for word in re.findall(r"^\s*(\w+)\s*(?:#\(|\w+\s*\()", text, re.M) if (RTL / f"{word}.sv").is_file() and word != name]
-    return [RTL / "voxmelt_pkg.sv"] + [file for file in reversed(found)]
-
-
 def key_of(part):
     """What a result rests on."""
-    text = name_of(part) + "".join(file.read_text() for file in sources_of(part))
+    text = name_of(part) + "".join(file.read_text() for file in sources_of(part["part"]))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def run(words, seconds=1800):
-    """The exit code, below 0 where it took more seconds of the processor, and the text."""
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-    result = subprocess.run(words, capture_output=True, text=True, preexec_fn=limit)
-    return result.returncode, result.stdout + result.stderr
-
-
-def yosys(script):
-    code, text = run(["yosys", "-q", "-p", script])
-    if code != 0:
-        raise RuntimeError(text.strip().splitlines()[-1])
-    return text
 
 
 def ports_of(part, folder):
     """Name, direction and width of each port."""
     ports = folder / "ports.json"
     parameters = "".join(f"chparam -set {key} {value} {part['part']}; " for key, value in part.get("with", {}).items())
-    files = " ".join(map(str, sources_of(part)))
+    files = " ".join(map(str, sources_of(part["part"])))
     yosys(f"read_verilog -sv {files}; {parameters}hierarchy -top {part['part']}; proc; write_json {ports}")
     modules = json.loads(ports.read_text())["modules"]
     top = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))
@@ -135,7 +105,7 @@ def measured(part):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "wrapper.sv").write_text(wrapper(part, ports_of(part, folder)))
-        files = " ".join(map(str, sources_of(part)))
+        files = " ".join(map(str, sources_of(part["part"])))
         yosys(f"read_verilog -sv {files} {folder}/wrapper.sv; synth_ice40 -top wrapper -json {folder}/net.json")
         cells = [cell["type"] for m in json.loads((folder / "net.json").read_text())["modules"].values()
                  if int(m["attributes"].get("top", "0"), 2) for cell in m["cells"].values()]
@@ -193,7 +163,7 @@ def main():
     wrong += [f"{name_of(part)}: has the keys {', '.join(sorted(part))}" for part in parts if not {"part", "stage"} <= set(part) <= KEYS]
     for part in parts:
         try:
-            sources_of(part)
+            sources_of(part["part"])
         except FileNotFoundError as error:
             wrong.append(f"{name_of(part)}: {error}")
     if wrong or not parts:
