@@ -32,6 +32,7 @@ struct LogicCost {
 struct StageCost {
   LogicCost lane;
   std::vector<Widths> multipliers;  // the last one stands for all further ones
+  int products = 0, dsps = 0;  // of a lane, so many products were synthesised to so many DSPs; 0: none were
 };
 
 struct Family {

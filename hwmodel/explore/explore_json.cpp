@@ -62,6 +62,7 @@ json family_json(const Family& f) {
     stage["multipliers"] = json::array();
     for (const Widths& widths : cost.multipliers)
       stage["multipliers"].push_back({widths.wide, widths.narrow});
+    stage["dsp"] = {cost.products, cost.dsps};
   }
   return result;
 }

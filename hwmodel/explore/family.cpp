@@ -63,6 +63,11 @@ void read_stages(scene::Reader& root, Family& f, const Given& given) {
     StageCost& cost = f.stages[kind];
     cost.lane = logic(table, given);
     for (const auto& [wide, narrow] : pairs(table, "multipliers")) cost.multipliers.push_back({wide, narrow});
+    if (table.has("dsp")) {
+      const std::array<double, 2> synthesised = table.vector<2>("dsp", scene::at_least(1).at_most(kWidest));
+      cost.products = static_cast<int>(synthesised[0]);
+      cost.dsps = static_cast<int>(synthesised[1]);
+    }
     table.finish();
   }
   stages.finish();

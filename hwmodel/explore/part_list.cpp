@@ -23,7 +23,9 @@ bool is_registers(const BufferCost& buffer, const Family& family) {
 
 void add_stage(PartList& list, const StagePart& part, const Family& family) {
   const StageCost& cost = family.stages.at(part.kind);
-  for (int i = 0; i < part.units.multipliers && !cost.multipliers.empty(); ++i) {
+  const std::int64_t products = std::int64_t{list.design.shape.lanes} * part.units.multipliers;
+  if (cost.products > 0) list.dsp += (products * cost.dsps + cost.products - 1) / cost.products;
+  for (int i = 0; i < part.units.multipliers && cost.products == 0 && !cost.multipliers.empty(); ++i) {
     const auto at = std::min<std::size_t>(i, cost.multipliers.size() - 1);
     list.dsp += list.design.shape.lanes * dsps_of(cost.multipliers[at], family.product);
   }

@@ -318,7 +318,9 @@ def fixed_of(report, parts, hw):
             cost = p * (c[name] + stage["dividers"] * f["divider"][name]) + blocks * f["random_block"][name] + f["control"][name]
             lut, ff = (lut + t * cost, ff) if name == "lut" else (lut, ff + t * cost)
         a, b = f["product"]
-        for i in range(stage["multipliers"] if c["multipliers"] else 0):
+        products, dsps = c["dsp"]
+        dsp += t * ceil(p * stage["multipliers"] * dsps / products) if products else 0
+        for i in range(stage["multipliers"] if c["multipliers"] and not products else 0):
             w, v = c["multipliers"][min(i, len(c["multipliers"]) - 1)]
             dsp += t * p * min(pieces(w, a) * pieces(v, b), pieces(w, b) * pieces(v, a))
         ff += t * sum(b["words"] * b["lanes"] * b["bits"] for b in stage["buffers"] if b["words"] <= f["register_words"])

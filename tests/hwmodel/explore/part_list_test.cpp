@@ -10,6 +10,7 @@
 
 #include "hwmodel/explore/mapping.h"
 #include "hwmodel/explore/part_list.h"
+#include "hwmodel/pipeline/model/stages.h"
 
 namespace voxmelt::hwmodel::explore {
 namespace {
@@ -135,6 +136,37 @@ TEST(Explore, CopiesOfAStageHoldTheSame) {
   EXPECT_EQ(held[StageKind::viscous_spread].size(), 3u);
   for (const auto& [kind, copies] : held)
     for (const std::string& copy : copies) EXPECT_EQ(copy, copies.front());
+}
+
+// A synthesis had every feature. The model counts as many products and dividers then as its numbers rest on.
+TEST(Explore, SynthesisedStagesHadTheProductsOfTheModel) {
+  const Family family = load_device("zu7ev", {}).family;
+  std::map<StageKind, int> dividers;
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
+    Design design{{}, {{60, 40, 30}, 4}, 1};
+    rule::Parameters& all = design.parameters;
+    all.flow.law = law;
+    all.flow.thermal_viscosity = true;
+    all.flow.fall.factor = 40000;
+    all.flow.paper.reheat = 100;
+    all.heat.enabled = all.heat.air = true;
+    all.heat.convection = all.heat.air_glow = 1000;
+    all.vents.resize(2);
+    all.drains.resize(2);
+    for (const auto& stage : make_step(design)) {
+      const bool paper_alone = stage->kind() == StageKind::source || stage->kind() == StageKind::gravity ||
+                               stage->kind() == StageKind::melt;  // they give energy, too
+      if (law == rule::Law::viscous && paper_alone) continue;
+      EXPECT_EQ(stage->units().multipliers, family.stages.at(stage->kind()).products)
+          << name_of(stage->kind());
+      dividers[stage->kind()] = stage->units().dividers;
+    }
+  }
+  EXPECT_EQ(dividers[StageKind::source], 2);
+  EXPECT_EQ(dividers[StageKind::gravity], 1);
+  EXPECT_EQ(dividers[StageKind::apply], 1);
+  EXPECT_EQ(dividers[StageKind::settle], 5);
+  EXPECT_EQ(dividers[StageKind::viscous_spread], 1);
 }
 
 }  // namespace

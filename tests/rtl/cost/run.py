@@ -38,7 +38,10 @@ TOOLS = {"ultrascale+": ("synth_xilinx -family xcup -noiopad -nolutram -flatten"
                          r"FD[RSCP]E", r"DSP48E2"),
          "ecp5": ("synth_ecp5", {r"LUT4": 1, r"CCU2C": 2, r"TRELLIS_DPR16X4": 6}, r"TRELLIS_FF", r"MULT18X18D")}
 WHAT = ("lut", "ff", "dsp")
-DIVIDERS = {"source": 2, "gravity": 1, "apply": 1, "settle": 5, "spread": 1}  # of a lane, as the model counts them
+# Products and dividers of a lane with every feature, as the model counts them (Stage::units).
+PRODUCTS = {"source": 12, "conduction": 3, "convection": 1, "exchange": 4, "melt": 1, "gravity": 5, "pattern": 4, "apply": 13,
+            "settle": 16, "spread": 21}
+DIVIDERS = {"source": 2, "gravity": 1, "apply": 1, "settle": 5, "spread": 1}
 
 
 def jobs():
@@ -78,7 +81,7 @@ def synthesised(family, module, given):
 
 def fit(results, family, stage, what):
     """What a stage takes once, and what for each lane, beside its dividers and its random blocks."""
-    part = {name: results[f"{family}: {module}"][what] for module, name in PARTS.items()}
+    part = {name: results[f"{family}: {module}"][what] if what != "dsp" else 0 for module, name in PARTS.items()}
     found = []
     for lanes in LANES:
         if f"{family}: {stage} x {lanes}" in results:
@@ -91,7 +94,7 @@ def fit(results, family, stage, what):
 
 
 def numbers_of(results, family):
-    """Of each table of a family: LUTs, flip-flops, and where they are from."""
+    """Of each table of a family: LUTs, flip-flops, products and DSPs, and where they are from."""
     found = {name: [results[f"{family}: {module}"][what] for what in ("lut", "ff")] for module, name in PARTS.items()}
     once = [[fit(results, family, stage, what)[0] for stage in STAGES] for what in ("lut", "ff")]
     found["control"] = [max(0, round(sum(column) / len(column))) for column in once]
@@ -102,18 +105,19 @@ def numbers_of(results, family):
     for name, parts, words in ("stage.edges", 2, "two conductions"), ("stage.corners", 4 / 3, "four thirds of a conduction"):
         found[name] = [round(parts * number) for number in found["stage.conduction"]]
         said[name] = f"assumed: {words}"
-    return {name: (*found[name], said[name]) for name in found}
+    dsp = {f"stage.{stage}": [count, round(fit(results, family, stage, "dsp")[1])] for stage, count in PRODUCTS.items()}
+    return {name: (*found[name], dsp.get(name), said[name]) for name in found}
 
 
 def with_numbers(text, numbers):
     """The text of a family's file with these numbers in its tables."""
-    for table, (lut, ff, source) in numbers.items():
+    for table, (lut, ff, dsp, source) in numbers.items():
         head = rf"^\[{re.escape(table)}\]\n"
         body = re.search(head + r"((?:(?!\[).*\n)*)", text, re.M)
         if not body:
             sys.exit(f"a family has no table [{table}]")
-        kept = [line for line in body[1].splitlines() if not re.match(r"(lut|ff|source|ff_source|lut_range|ff_range) =", line)]
-        new = [f"lut = {lut}", f"ff = {ff}", *[line for line in kept if line and not line.startswith("#")], f'source = "{source}"']
+        kept = [line for line in body[1].splitlines() if not re.match(r"(lut|ff|dsp|source|ff_source|lut_range|ff_range) =", line)]
+        new = [f"lut = {lut}", f"ff = {ff}", *([f"dsp = {dsp}"] if dsp else []), *[line for line in kept if line and not line.startswith("#")], f'source = "{source}"']
         tail = [line for line in kept if not line or line.startswith("#")]
         text = text[:body.start(1)] + "\n".join(new + tail) + "\n" + text[body.end(1):]
     return text
@@ -123,8 +127,8 @@ def families(results):
     """The texts of the families' files."""
     for family in TOOLS:
         yield FAMILIES / f"{family}.toml", with_numbers((FAMILIES / f"{family}.toml").read_text(), numbers_of(results, family))
-    counted = {name: (lut, ff, re.sub("^synthesised:", "counted: on UltraScale+ it was synthesised", source))
-               for name, (lut, ff, source) in numbers_of(results, "ultrascale+").items()}
+    counted = {name: (lut, ff, None, re.sub("^synthesised:", "counted: on UltraScale+ it was synthesised", source))
+               for name, (lut, ff, _, source) in numbers_of(results, "ultrascale+").items()}
     yield FAMILIES / "7series.toml", with_numbers((FAMILIES / "7series.toml").read_text(), counted)
 
 
