@@ -73,9 +73,11 @@ class Ranges(unittest.TestCase):
         slow = hw["clock_mhz"] > next(one for one in report["ranges"]["alone"] if one["name"] == "device.clock")["worse"]
         self.assertEqual(report["ranges"]["keeps_best"], float(best["fullest_worse"]) <= 1 and not slow)
         picture = (self.folder / "out/explore.svg").read_text()
-        for one in report["ranges"]["alone"]:
-            changes = self.speed(one["best"]["better"]) != self.speed(one["best"]["worse"])
-            self.assertEqual(f">{one['name']}<" in picture, changes, one["name"])
+        changing = {one["name"] for one in report["ranges"]["alone"]
+                    if self.speed(one["best"]["better"]) != self.speed(one["best"]["worse"])}
+        drawn = {one["name"] for one in report["ranges"]["alone"] if f">{one['name']}<" in picture}
+        self.assertLessEqual(drawn, changing)
+        self.assertEqual(len(drawn), min(10, len(changing)), "bars are the widest ten")
 
     def test_a_range_of_ones_own(self):
         report, _ = self.explore("--device", "zu7ev", "--set", "family.stage.melt.lut=70", "--set",

@@ -24,6 +24,9 @@ STOP = sum(DDR4[name] for name in ("rtp", "rp", "rfc", "rcd"))  # cycles of a re
 AXES = (*NAMES, "clock_mhz", "femtojoules")
 
 
+PLENTY = ("--set", "device.lut=400000", "--set", "device.ff=400000")  # of logic, so that something else bounds
+
+
 class Explore(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -108,7 +111,7 @@ class Explore(unittest.TestCase):
     def test_nothing_is_said_of_parts_that_a_device_does_not_have(self):
         for device, memory, none in (("ecp5-85f", "none", []), ("zu7ev", "ddr4-2400", ["--set", "device.uram=0"])):
             report, _, said = self.explore(self.scene, "--device", device, "--memory", memory, "--points", 0, "--set",
-                                           "device.bram=40", "--set", "hw.lanes=2", *none)
+                                           "device.bram=40", "--set", "hw.lanes=2", *PLENTY, *none)
             self.assertNotIn("more URAM", said)
             self.assertIn("more BRAM", said)
             self.assertIsNone(report["next"]["uram"]["more"])
@@ -116,7 +119,7 @@ class Explore(unittest.TestCase):
 
     def test_the_front_is_what_nothing_beats(self):
         report, rows, _ = self.explore(self.scene, "--device", "ecp5-85f", "--memory", "none", "--points", 0,
-                                       "--set", "hw.lanes=4")
+                                       "--set", "hw.lanes=4", *PLENTY)
         fits = [row for row in rows if row["fits"] == "1"]
         speed = lambda row: int(row["cell_steps_per_second"])
         front = set()

@@ -146,7 +146,7 @@ TEST(Explore, SynthesisedStagesHadTheProductsOfTheModel) {
     Design design{{}, {{60, 40, 30}, 4}, 1};
     rule::Parameters& all = design.parameters;
     all.flow.law = law;
-    all.flow.thermal_viscosity = true;
+    all.flow.thermal_viscosity = law == rule::Law::viscous;  // the paper's circuit reads shares from a table
     all.flow.fall.factor = 40000;
     all.flow.paper.reheat = 100;
     all.heat.enabled = all.heat.air = true;

@@ -38,8 +38,8 @@ TOOLS = {"ultrascale+": ("synth_xilinx -family xcup -noiopad -nolutram -flatten"
                          r"FD[RSCP]E", r"DSP48E2"),
          "ecp5": ("synth_ecp5", {r"LUT4": 1, r"CCU2C": 2, r"TRELLIS_DPR16X4": 6}, r"TRELLIS_FF", r"MULT18X18D")}
 WHAT = ("lut", "ff", "dsp")
-# Products and dividers of a lane with every feature, as the model counts them (Stage::units).
-PRODUCTS = {"source": 12, "conduction": 3, "convection": 1, "exchange": 4, "melt": 1, "gravity": 5, "pattern": 4, "apply": 13,
+# Products and dividers of a lane with every feature (the paper's law without thermal viscosity), as Stage::units counts.
+PRODUCTS = {"source": 12, "conduction": 3, "convection": 1, "exchange": 4, "melt": 1, "gravity": 5, "pattern": 2, "apply": 11,
             "settle": 16, "spread": 21}
 DIVIDERS = {"source": 2, "gravity": 1, "apply": 1, "settle": 5, "spread": 1}
 
@@ -79,33 +79,41 @@ def synthesised(family, module, given):
     return dict(zip(WHAT, (sum(n * count(kind) for kind, n in luts.items()), count(registers), count(products))))
 
 
-def fit(results, family, stage, what):
-    """What a stage takes once, and what for each lane, beside its dividers and its random blocks."""
-    part = {name: results[f"{family}: {module}"][what] if what != "dsp" else 0 for module, name in PARTS.items()}
-    found = []
-    for lanes in LANES:
-        if f"{family}: {stage} x {lanes}" in results:
-            blocks = -(-lanes // 8) if stage == "pattern" else 0
-            whole = results[f"{family}: {stage} x {lanes}"][what]
-            found.append((lanes, whole - lanes * DIVIDERS.get(stage, 0) * part["divider"] - blocks * part["random_block"]))
+def slope(results, family, stage, what):
+    """What a stage takes once, and what for each lane, beside its random blocks, of which one serves eight lanes."""
+    block = results[f"{family}: speck_unit"][what] if stage == "pattern" else 0
+    found = [(n, results[key][what] - -(-n // 8) * block) for n in LANES if (key := f"{family}: {stage} x {n}") in results]
     (few, least), (many, most) = found[-2:]
     lane = (most - least) / (many - few)
     return least - few * lane, lane
 
 
+def divider(results, family, what):
+    """A divider is the mixer, or less where a stage of several has less. Its other logic counts as one more there."""
+    shares = [slope(results, family, stage, what)[1] / (count + 1) for stage, count in DIVIDERS.items() if count > 1]
+    return round(min(results[f"{family}: mixer"][what], *shares))
+
+
+def beside(results, family, stage, what):
+    """The same beside its dividers, too."""
+    once, lane = slope(results, family, stage, what)
+    return once, lane - (DIVIDERS.get(stage, 0) * divider(results, family, what) if what != "dsp" else 0)
+
+
 def numbers_of(results, family):
     """Of each table of a family: LUTs, flip-flops, products and DSPs, and where they are from."""
-    found = {name: [results[f"{family}: {module}"][what] for what in ("lut", "ff")] for module, name in PARTS.items()}
-    once = [[fit(results, family, stage, what)[0] for stage in STAGES] for what in ("lut", "ff")]
+    found = {"divider": [divider(results, family, what) for what in ("lut", "ff")],
+             "random_block": [results[f"{family}: speck_unit"][what] for what in ("lut", "ff")]}
+    once = [[beside(results, family, stage, what)[0] for stage in STAGES] for what in ("lut", "ff")]
     found["control"] = [max(0, round(sum(column) / len(column))) for column in once]
     for stage in STAGES:
-        found[f"stage.{stage}"] = [max(0, round(fit(results, family, stage, what)[1])) for what in ("lut", "ff")]
+        found[f"stage.{stage}"] = [max(0, round(beside(results, family, stage, what)[1])) for what in ("lut", "ff")]
     said = dict.fromkeys(found, "synthesised: by tests/rtl/cost/run.py")
     said["stage.source"] += ", with two vents and two drains"
     for name, parts, words in ("stage.edges", 2, "two conductions"), ("stage.corners", 4 / 3, "four thirds of a conduction"):
         found[name] = [round(parts * number) for number in found["stage.conduction"]]
         said[name] = f"assumed: {words}"
-    dsp = {f"stage.{stage}": [count, round(fit(results, family, stage, "dsp")[1])] for stage, count in PRODUCTS.items()}
+    dsp = {f"stage.{stage}": [count, round(beside(results, family, stage, "dsp")[1])] for stage, count in PRODUCTS.items()}
     return {name: (*found[name], dsp.get(name), said[name]) for name in found}
 
 
@@ -117,7 +125,8 @@ def with_numbers(text, numbers):
         if not body:
             sys.exit(f"a family has no table [{table}]")
         kept = [line for line in body[1].splitlines() if not re.match(r"(lut|ff|dsp|source|ff_source|lut_range|ff_range) =", line)]
-        new = [f"lut = {lut}", f"ff = {ff}", *([f"dsp = {dsp}"] if dsp else []), *[line for line in kept if line and not line.startswith("#")], f'source = "{source}"']
+        stays = [line for line in kept if line and not line.startswith("#")]
+        new = [f"lut = {lut}", f"ff = {ff}", *([f"dsp = {dsp}"] if dsp else []), *stays, f'source = "{source}"']
         tail = [line for line in kept if not line or line.startswith("#")]
         text = text[:body.start(1)] + "\n".join(new + tail) + "\n" + text[body.end(1):]
     return text
