@@ -1,7 +1,10 @@
 #include "app/run_program.h"
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "app/ending.h"
@@ -12,8 +15,10 @@
 
 namespace voxmelt::app {
 
-int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
-                int argc, char** argv) {
+namespace {
+
+int run(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands, int argc,
+        char** argv) {
   try {
     CommandLine program("voxmelt", introduction, version_text());
     add_commands(program);
@@ -32,6 +37,19 @@ int run_program(const std::string& introduction, const std::function<void(Comman
     say(ending.message);
     return ending.code;
   }
+}
+
+}  // namespace
+
+int run_program(const std::string& introduction, const std::function<void(CommandLine&)>& add_commands,
+                int argc, char** argv) {
+  const int code = run(introduction, add_commands, argc, argv);
+  if (ends_at_once()) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  return code;
 }
 
 }  // namespace voxmelt::app

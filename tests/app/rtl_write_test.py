@@ -77,7 +77,7 @@ class Refused(Written):
                 ("proving_ground_viscous", ("--set", "flow.viscous.substeps=1"), "edges is not written in SystemVerilog"),
                 ("lesson_tubes", (), "the number of sub-steps follows from the state; set it by flow.viscous.substeps"),
                 ("lesson_tubes", ("--set", "flow.viscous.substeps=2"), "a step has 2 sub-steps, and hw.substeps is 1"),
-                ("chocolate_nuts", (), "fall: there is one material"),
+                ("chocolate_nuts", ("--set", "flow.viscous.substeps=1"), "fall: there is one material"),
                 ("lesson_spread", ("--set", "hw.lanes=3"), "hw.lanes is 1, 2, 4, 8 or 16"),
                 ("cello", ("--set", "hw.cascade=2"), "where pieces fall, hw.cascade is 1")):
             done = voxmelt("rtl", SCENES / f"{scene}.toml", "--out", self.folder / "rtl", *options)

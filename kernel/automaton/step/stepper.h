@@ -69,6 +69,13 @@ class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Says that a device does not answer. Threads of its driver may still work, so a program must not clean up
+// what they use.
+class DeviceLost : public DeviceError {
+ public:
+  using DeviceError::DeviceError;
+};
+
 // Every function may throw DeviceError. Then the host's volume is the one of the last download.
 class DeviceStepper : public Stepper {
  public:

@@ -155,8 +155,8 @@ class OpenClQueue final : public Device {
       const auto waited = std::chrono::steady_clock::now() - begin;
       if (waited > std::chrono::seconds(patience_)) {
         lost = true;
-        throw DeviceError("OpenCL: " + about_.name + " does not answer for " + std::to_string(patience_) +
-                          " s");
+        throw step::DeviceLost("OpenCL: " + about_.name + " does not answer for " +
+                               std::to_string(patience_) + " s");
       }
       if (waited > std::chrono::milliseconds(2)) std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
