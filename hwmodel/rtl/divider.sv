@@ -1,4 +1,5 @@
-// A division, one bit of the quotient per register. `number` is less than `by` x 2^QUOTIENT.
+// A division, one bit of the quotient per register. `number` is less than `by` x 2^QUOTIENT. A rest below 0
+// lacks the divisor, and gets it with the next bit. So a bit is one sum, without a choice behind it.
 module divider #(
     parameter REST = 16,      // bits of the divisor
     parameter QUOTIENT = 16,
@@ -10,25 +11,24 @@ module divider #(
     input  logic [REST-1:0]          by,
     output logic [QUOTIENT*REST-1:0] divisors,  // 1 .. QUOTIENT moves later
     output logic [QUOTIENT-1:0]      quotient,  // QUOTIENT moves later, as the rest
-    output logic [REST-1:0]          rest
+    output logic signed [REST:0]     rest
 );
-  logic [QUOTIENT*REST-1:0] rests;
+  logic [QUOTIENT*(REST+1)-1:0] rests;
   logic [QUOTIENT*QUOTIENT-1:0] lows;
   for (genvar i = 0; i < QUOTIENT; i++) begin : bits
     localparam BEFORE = i == 0 ? 0 : i - 1;
-    wire [REST-1:0] held = i == 0 ? REST'(number[NUMBER-1:QUOTIENT]) : rests[REST*BEFORE+:REST];
+    wire [REST:0] held = i == 0 ? (REST + 1)'(number[NUMBER-1:QUOTIENT]) : rests[(REST+1)*BEFORE+:REST+1];
     wire [QUOTIENT-1:0] low = i == 0 ? number[QUOTIENT-1:0] : lows[QUOTIENT*BEFORE+:QUOTIENT];
     wire [REST-1:0] divisor = i == 0 ? by : divisors[REST*BEFORE+:REST];
-    wire [REST:0] whole = {held, low[QUOTIENT-1]};
-    wire fits = whole >= {1'b0, divisor};
-    wire [REST:0] less = whole - {1'b0, divisor};
+    wire below = held[REST];
+    wire [REST+1:0] left = {held[REST-1:0], low[QUOTIENT-1], 1'b0} - {{1'b0, divisor} ^ {(REST + 1) {below}}, below};
     always_ff @(posedge clk)
       if (en) begin
-        rests[REST*i+:REST] <= fits ? less[REST-1:0] : whole[REST-1:0];
-        lows[QUOTIENT*i+:QUOTIENT] <= {low[QUOTIENT-2:0], fits};
+        rests[(REST+1)*i+:REST+1] <= left[REST+1:1];
+        lows[QUOTIENT*i+:QUOTIENT] <= {low[QUOTIENT-2:0], ~left[REST+1]};
         divisors[REST*i+:REST] <= divisor;
       end
   end
   assign quotient = lows[QUOTIENT*(QUOTIENT-1)+:QUOTIENT];
-  assign rest = rests[REST*(QUOTIENT-1)+:REST];
+  assign rest = rests[(REST+1)*(QUOTIENT-1)+:REST+1];
 endmodule

@@ -14,24 +14,25 @@ module mixer (
   product times_dither (.clk(clk), .en(en), .a($signed({2'b0, amount})), .b({1'b0, dither}), .p(rounding));
   delay #(.WIDTH(48), .N(3)) waits (.clk(clk), .en(en), .d({content, amount}), .q({content3, amount3}));
 
-  logic [17*16-1:0] rest, low;  // of the division, after so many bits
-  logic [17*16-1:0] by;
+  // Of the division, after so many bits. A rest below 0 gets the divisor with the next bit. So a bit is one sum,
+  // without a choice behind it.
+  logic [17*17-1:0] rest;
+  logic [17*16-1:0] low, by;
   wire [31:0] number = content3 + 32'(rounding[31:16]);
   always_ff @(posedge clk)
     if (en) begin
-      rest[0+:16] <= number[31:16];
+      rest[0+:17] <= {1'b0, number[31:16]};
       low[0+:16] <= number[15:0];
       by[0+:16] <= amount3;
     end
   for (genvar bit_ = 0; bit_ < 16; bit_++) begin : bits
     wire [15:0] divisor = by[16*bit_+:16];
-    wire [16:0] whole = {rest[16*bit_+:16], low[16*bit_+15]};
-    wire fits = whole >= {1'b0, divisor};
-    wire [16:0] less = whole - {1'b0, divisor};
+    wire below = rest[17*bit_+16];
+    wire [17:0] left = {rest[17*bit_+:16], low[16*bit_+15], 1'b0} - {{1'b0, divisor} ^ {17{below}}, below};
     always_ff @(posedge clk)
       if (en) begin
-        rest[16*bit_+16+:16] <= fits ? less[15:0] : whole[15:0];
-        low[16*bit_+16+:16] <= {low[16*bit_+:15], fits};
+        rest[17*bit_+17+:17] <= left[17:1];
+        low[16*bit_+16+:16] <= {low[16*bit_+:15], ~left[17]};
         by[16*bit_+16+:16] <= divisor;
       end
   end

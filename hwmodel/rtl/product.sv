@@ -1,5 +1,5 @@
 // A product over three registers. In logic, each register ends one sum. With VOXMELT_BLOCKS it is left to a
-// multiplier block and its own registers.
+// multiplier block and its registers: of its operands, of the product, and behind it.
 module product #(
     parameter B = 17
 ) (
@@ -10,11 +10,14 @@ module product #(
     output logic signed [B+17:0] p  // three moves later
 );
 `ifdef VOXMELT_BLOCKS
-  logic signed [B+17:0] p1, p2;
+  logic signed [17:0] a1;
+  logic [B-1:0] b1;
+  logic signed [B+17:0] p2;
   always_ff @(posedge clk)
     if (en) begin
-      p1 <= (B + 18)'(a * $signed({1'b0, b}));
-      p2 <= p1;
+      a1 <= a;
+      b1 <= b;
+      p2 <= (B + 18)'(a1 * $signed({1'b0, b1}));
       p <= p2;
     end
 `else

@@ -16,14 +16,14 @@ module serial_mixer (
   localparam [4:0] DONE = 5'd23;
   logic [4:0] count;
   logic [31:0] content;
-  logic [15:0] rest, low, a, b, after;
+  logic [16:0] rest;  // as in the mixer
+  logic [15:0] low, a, b, after;
   logic signed [34:0] part;
   product parts (.clk(clk), .en(1'b1), .a($signed({2'b0, a})), .b({1'b0, b}), .p(part));
 
   wire [31:0] number = content + 32'(part[31:16]);
-  wire [16:0] whole = {rest, low[15]};
-  wire fits = whole >= {1'b0, after};
-  wire [16:0] less = whole - {1'b0, after};
+  wire below = rest[16];
+  wire [17:0] left = {rest[15:0], low[15], 1'b0} - {{1'b0, after} ^ {17{below}}, below};
   assign works = start & (count != DONE);
   assign mixed = low;
   always_ff @(posedge clk) begin
@@ -35,8 +35,8 @@ module serial_mixer (
     if (count == 5'd4) content <= part[31:0];
     if (count == 5'd5) content <= content + part[31:0];
     if (works) begin
-      rest <= count == 5'd6 ? number[31:16] : fits ? less[15:0] : whole[15:0];
-      low <= count == 5'd6 ? number[15:0] : {low[14:0], fits};
+      rest <= count == 5'd6 ? {1'b0, number[31:16]} : left[17:1];
+      low <= count == 5'd6 ? number[15:0] : {low[14:0], ~left[17]};
     end
   end
 endmodule

@@ -37,7 +37,7 @@ module show_unit #(
   logic [13:0] by5, limit19, limit20;
   product #(.B(SUM - 11)) stiff (.clk(clk), .en(en), .a($signed({14'd0, factor1})), .b(cells1), .p(by4));
   logic [14*14-1:0] unused_divisors;
-  logic [13:0] unused_rest;
+  logic signed [14:0] unused_rest;
   divider #(.REST(14), .QUOTIENT(14), .NUMBER(15)) of_limit (
       .clk(clk), .en(en), .number(15'd13107), .by(by5), .divisors(unused_divisors), .quotient(limit19),
       .rest(unused_rest));
@@ -48,7 +48,7 @@ module show_unit #(
   logic [DEPTH-1:0] deep1, deep2;
   logic [25:0] number2;
   logic [25*DEPTH-1:0] unused_depths;
-  logic [DEPTH-1:0] unused_part;
+  logic signed [DEPTH:0] unused_part;
   logic [24:0] dead27;
   divider #(.REST(DEPTH), .QUOTIENT(25), .NUMBER(26)) of_yield (
       .clk(clk), .en(en), .number(number2), .by(deep2), .divisors(unused_depths), .quotient(dead27),

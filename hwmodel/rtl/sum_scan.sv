@@ -74,7 +74,7 @@ module sum_scan #(
   wire keeps5 = ordered5 & (total5[SUM] | (total5 == '0));
   logic [16*SUM-1:0] divisors;
   logic [15:0] mean22;
-  logic [SUM-1:0] rest22;
+  logic signed [SUM:0] rest22;
   divider #(.REST(SUM), .QUOTIENT(16), .NUMBER(44)) mixture (
       .clk(clk), .en(move), .number(content6), .by(sum6), .divisors(divisors), .quotient(mean22), .rest(rest22));
   logic [SUM+15:0] rounding22;
@@ -83,14 +83,14 @@ module sum_scan #(
   logic [LAST+37:0] rest_of_word22, rest_of_word23;
   delay #(.WIDTH(LAST + 38), .N(16)) waits (
       .clk(clk), .en(move), .d({record6, set6, top6, ordered6, heat6, last6, kind6}), .q(rest_of_word22));
-  logic [SUM:0] over23;
+  logic signed [SUM:0] over23;  // below 0, or beyond the sum
   logic [SUM-1:0] sum23;
-  logic [15:0] mean23;
+  logic [15:0] mean23, more23;
   wire [2:0] kind23 = rest_of_word23[2:0];
   wire [LAST-1:0] last23 = rest_of_word23[3+:LAST];
   wire [15:0] heat23 = rest_of_word23[LAST+3+:16], top23 = rest_of_word23[LAST+20+:16];
   wire ordered23 = rest_of_word23[LAST+19], set23 = rest_of_word23[LAST+36], record23 = rest_of_word23[LAST+37];
-  wire [15:0] rounded23 = mean23 + 16'(over23 >= {1'b0, sum23});
+  wire [15:0] rounded23 = over23 >= $signed({1'b0, sum23}) ? more23 : mean23;
 
   always_ff @(posedge clk)
     if (move) begin
@@ -141,9 +141,10 @@ module sum_scan #(
       set6 <= set5;
       content6 <= content5;
 
-      over23 <= {1'b0, rest22} + {1'b0, rounding22[SUM+15:16]};
-      sum23 <= divisors[15*SUM+:SUM];
+      over23 <= rest22 + $signed({1'b0, rounding22[SUM+15:16]});
+      sum23 <= rest22[SUM] ? '0 : divisors[15*SUM+:SUM];
       mean23 <= mean22;
+      more23 <= mean22 + 16'd1;
       rest_of_word23 <= rest_of_word22;
 
       word <= {set23, (kind23 == TOP) | (kind23 == SINGLE) ? mean23 : 16'd0, top23, ordered23,

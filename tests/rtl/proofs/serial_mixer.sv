@@ -21,15 +21,16 @@ module proof (
   wire [15:0] after = amount + flow;
   assign rounding = 35'($signed({2'b0, after}) * $signed({1'b0, 1'b0, dither}));
   wire [31:0] number = here[31:0] + there[31:0] + 32'(rounding[31:16]);
-  logic [15:0] rest, low;
-  logic [16:0] whole;
+  logic [16:0] rest;  // as in the mixer, whose bits are proved
+  logic [15:0] low;
+  logic [17:0] left;
   always_comb begin
-    rest = number[31:16];
+    rest = {1'b0, number[31:16]};
     low = number[15:0];
     for (int i = 0; i < 16; i++) begin
-      whole = {rest, low[15]};
-      low = {low[14:0], whole >= {1'b0, after}};
-      rest = whole >= {1'b0, after} ? 16'(whole - {1'b0, after}) : whole[15:0];
+      left = {rest[15:0], low[15], 1'b0} - {{1'b0, after} ^ {17{rest[16]}}, rest[16]};
+      low = {low[14:0], ~left[17]};
+      rest = left[17:1];
     end
     due = low;
   end
