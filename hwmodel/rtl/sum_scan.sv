@@ -83,7 +83,7 @@ module sum_scan #(
   logic [LAST+37:0] rest_of_word22, rest_of_word23;
   delay #(.WIDTH(LAST + 38), .N(16)) waits (
       .clk(clk), .en(move), .d({record6, set6, top6, ordered6, heat6, last6, kind6}), .q(rest_of_word22));
-  logic signed [SUM:0] over23;  // below 0, or beyond the sum
+  logic signed [SUM+1:0] over23;  // below 0, or beyond the sum
   logic [SUM-1:0] sum23;
   logic [15:0] mean23, more23;
   wire [2:0] kind23 = rest_of_word23[2:0];
@@ -141,7 +141,7 @@ module sum_scan #(
       set6 <= set5;
       content6 <= content5;
 
-      over23 <= rest22 + $signed({1'b0, rounding22[SUM+15:16]});
+      over23 <= (SUM + 2)'(rest22) + $signed({1'b0, rounding22[SUM+15:16]});
       sum23 <= rest22[SUM] ? '0 : divisors[15*SUM+:SUM];
       mean23 <= mean22;
       more23 <= mean22 + 16'd1;
