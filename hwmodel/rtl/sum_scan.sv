@@ -90,7 +90,7 @@ module sum_scan #(
   wire [LAST-1:0] last23 = rest_of_word23[3+:LAST];
   wire [15:0] heat23 = rest_of_word23[LAST+3+:16], top23 = rest_of_word23[LAST+20+:16];
   wire ordered23 = rest_of_word23[LAST+19], set23 = rest_of_word23[LAST+36], record23 = rest_of_word23[LAST+37];
-  wire [15:0] rounded23 = over23 >= $signed({1'b0, sum23}) ? more23 : mean23;
+  wire [15:0] rounded23 = over23 >= $signed({2'b0, sum23}) ? more23 : mean23;
 
   always_ff @(posedge clk)
     if (move) begin
