@@ -83,14 +83,14 @@ module sum_scan #(
   logic [LAST+37:0] rest_of_word22, rest_of_word23;
   delay #(.WIDTH(LAST + 38), .N(16)) waits (
       .clk(clk), .en(move), .d({record6, set6, top6, ordered6, heat6, last6, kind6}), .q(rest_of_word22));
-  logic signed [SUM+1:0] over23;  // below 0, or beyond the sum
-  logic [SUM-1:0] sum23;
+  logic signed [SUM+1:0] over23;
+  logic [SUM-1:0] sum23, bound23;  // a rest below 0 lacks the sum
   logic [15:0] mean23, more23;
   wire [2:0] kind23 = rest_of_word23[2:0];
   wire [LAST-1:0] last23 = rest_of_word23[3+:LAST];
   wire [15:0] heat23 = rest_of_word23[LAST+3+:16], top23 = rest_of_word23[LAST+20+:16];
   wire ordered23 = rest_of_word23[LAST+19], set23 = rest_of_word23[LAST+36], record23 = rest_of_word23[LAST+37];
-  wire [15:0] rounded23 = over23 >= $signed({2'b0, sum23}) ? more23 : mean23;
+  wire [15:0] rounded23 = over23 >= $signed({2'b0, bound23}) ? more23 : mean23;
 
   always_ff @(posedge clk)
     if (move) begin
@@ -142,7 +142,8 @@ module sum_scan #(
       content6 <= content5;
 
       over23 <= (SUM + 2)'(rest22) + $signed({1'b0, rounding22[SUM+15:16]});
-      sum23 <= rest22[SUM] ? '0 : divisors[15*SUM+:SUM];
+      sum23 <= divisors[15*SUM+:SUM];
+      bound23 <= rest22[SUM] ? '0 : divisors[15*SUM+:SUM];
       mean23 <= mean22;
       more23 <= mean22 + 16'd1;
       rest_of_word23 <= rest_of_word22;
