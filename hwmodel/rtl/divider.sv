@@ -13,8 +13,8 @@ module divider #(
     output logic [QUOTIENT-1:0]      quotient,  // QUOTIENT moves later, as the rest
     output logic signed [REST:0]     rest
 );
-  logic [QUOTIENT*(REST+1)-1:0] rests;
-  logic [QUOTIENT*QUOTIENT-1:0] lows;
+  logic [QUOTIENT*(REST+1)-1:0] rests /*verilator split_var*/;
+  logic [QUOTIENT*QUOTIENT-1:0] lows /*verilator split_var*/;
   for (genvar i = 0; i < QUOTIENT; i++) begin : bits
     localparam BEFORE = i == 0 ? 0 : i - 1;
     wire [REST:0] held = i == 0 ? (REST + 1)'(number[NUMBER-1:QUOTIENT]) : rests[(REST+1)*BEFORE+:REST+1];

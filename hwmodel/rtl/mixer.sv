@@ -16,8 +16,8 @@ module mixer (
 
   // Of the division, after so many bits. A rest below 0 gets the divisor with the next bit. So a bit is one sum,
   // without a choice behind it.
-  logic [17*17-1:0] rest;
-  logic [17*16-1:0] low, by;
+  logic [17*17-1:0] rest /*verilator split_var*/;
+  logic [17*16-1:0] low /*verilator split_var*/, by /*verilator split_var*/;
   wire [31:0] number = content3 + 32'(rounding[31:16]);
   always_ff @(posedge clk)
     if (en) begin

@@ -18,7 +18,7 @@ module source_stage #(
     input  logic [31:0]         step,
     input  voxmelt_pkg::place_t last,
     input  logic [23:0]         lag,
-    input  logic [(VENTS+DRAINS)*199-1:0] openings,  // vents first
+    input  logic [(VENTS+DRAINS>0?VENTS+DRAINS:1)*199-1:0] openings,  // vents first; without any, unused
     input  logic [11:0]         last_x,               // of the grid
     input  logic                open_border,
     input  logic                hot
@@ -40,7 +40,7 @@ module source_stage #(
   dither_unit reverse (.step(step_came), .dither(dither));
   logic [(N+1)*16-1:0] dithers;
   delay #(.WIDTH(16), .N(12)) first_dither (.clk(clk), .en(move), .d(dither), .q(dithers[15:0]));
-  logic [N-1:0] open;  // of the step of the token that comes
+  logic [N:0] open;  // of the step of the token that comes
   for (genvar i = 0; i < N; i++) begin : steps
     delay #(.WIDTH(16), .N(26)) dither_of (
         .clk(clk), .en(move), .d(dithers[i*16+:16]), .q(dithers[(i+1)*16+:16]));

@@ -8,7 +8,7 @@ module speck_unit (
     input  logic [31:0]  index,
     output logic [63:0]  block   // 10 moves later
 );
-  logic [10*32-1:0] high, low;  // after so many rounds
+  logic [10*32-1:0] high /*verilator split_var*/, low /*verilator split_var*/;  // after so many rounds
   for (genvar round = 0; round < 10; round++) begin : rounds
     localparam BEFORE = round == 0 ? 0 : round - 1;
     wire [31:0] h = round == 0 ? step : high[32*BEFORE+:32];

@@ -74,7 +74,6 @@ class Small(Written):
 class Refused(Written):
     def test_what_cannot_be_written(self):
         for scene, options, words in (
-                ("proving_ground_viscous", ("--set", "flow.viscous.substeps=1"), "edges is not written in SystemVerilog"),
                 ("lesson_tubes", (), "the number of sub-steps follows from the state; set it by flow.viscous.substeps"),
                 ("lesson_tubes", ("--set", "flow.viscous.substeps=2"), "a step has 2 sub-steps, and hw.substeps is 1"),
                 ("chocolate_nuts", ("--set", "flow.viscous.substeps=1"), "fall: there is one material"),

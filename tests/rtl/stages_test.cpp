@@ -100,6 +100,10 @@ TEST(StagesInRtl, Source) { one_stage(StageKind::source, 80); }
 TEST(StagesInRtl, SourceViscous) { one_stage(StageKind::source, 40, rule::Law::viscous); }
 TEST(StagesInRtl, Conduction) { one_stage(StageKind::conduction, 28); }
 TEST(StagesInRtl, ConductionViscous) { one_stage(StageKind::conduction, 28, rule::Law::viscous); }
+TEST(StagesInRtl, Edges) { one_stage(StageKind::edges, 48); }
+TEST(StagesInRtl, EdgesViscous) { one_stage(StageKind::edges, 36, rule::Law::viscous); }
+TEST(StagesInRtl, Corners) { one_stage(StageKind::corners, 64); }
+TEST(StagesInRtl, CornersViscous) { one_stage(StageKind::corners, 48, rule::Law::viscous); }
 TEST(StagesInRtl, Convection) { one_stage(StageKind::convection, 36); }
 TEST(StagesInRtl, ConvectionViscous) { one_stage(StageKind::convection, 36, rule::Law::viscous); }
 TEST(StagesInRtl, Exchange) { one_stage(StageKind::exchange, 36); }

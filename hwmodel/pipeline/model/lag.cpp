@@ -48,6 +48,10 @@ int registers_of(StageKind kind, const Design& design) {
     case conduction:
     case convection:
       return 7;
+    case edges:
+      return 9;
+    case corners:
+      return 8;
     case exchange:
       return 22;
     case melt:

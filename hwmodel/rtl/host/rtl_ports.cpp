@@ -64,6 +64,8 @@ class Ports {
     if (kind == source) add_source();
     if (kind == walls) add_walls();
     if (kind == conduction) add_conduction();
+    if (kind == edges) add_distant(p_.heat.weight_edge);
+    if (kind == corners) add_distant(p_.heat.weight_corner);
     if (kind == convection) add_convection();
     if (kind == exchange) add_exchange();
     if (kind == melt) add_melt();
@@ -94,7 +96,8 @@ class Ports {
     if (p_.vents.size() > sizes_.vents || p_.drains.size() > sizes_.drains)
       ports_.refusal = "it has at most " + std::to_string(sizes_.vents) + " vents and " +
                        std::to_string(sizes_.drains) + " drains";
-    std::vector<std::uint32_t> words(((sizes_.vents + sizes_.drains) * kBits + 31) / 32);
+    std::vector<std::uint32_t> words((std::max<std::size_t>(sizes_.vents + sizes_.drains, 1) * kBits + 31) /
+                                     32);
     for (std::size_t i = 0; i < std::min(sizes_.vents, p_.vents.size()); ++i) {
       const rule::Vent& vent = p_.vents[i];
       put_opening(words, kBits * i, vent.region,
@@ -137,6 +140,15 @@ class Ports {
     add("finds_walls", design_.walls_in_conduction() ? 1 : 0);
     add("finds_touched", design_.freezes() ? 1 : 0);
     add("weight", p_.heat.weight_face);
+    add_curve();
+  }
+
+  // A cell takes part in windows a plane and a column long, and waits for eight registers behind each tap.
+  void add_distant(std::int64_t weight) {
+    add("lag", line_.plane + line_.column + 9);
+    add_memories("east", "north", line_.column - 8, line_.plane - 16);
+    add_memory("south_east", line_.column - 8);
+    add("weight", weight);
     add_curve();
   }
 
@@ -282,8 +294,7 @@ RtlPorts rtl_ports(StageKind kind, const Design& design, const RtlSizes& sizes) 
 }
 
 RtlSizes sizes_of(const Design& design) {
-  const Openings openings = openings_of(design);
-  return {static_cast<std::size_t>(openings.vents), static_cast<std::size_t>(openings.drains), kAny, kAny};
+  return {design.parameters.vents.size(), design.parameters.drains.size(), kAny, kAny};
 }
 
 bool is_memory(std::string_view port) {
