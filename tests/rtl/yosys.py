@@ -24,16 +24,16 @@ def sources_of(top):
     return [RTL / "voxmelt_pkg.sv"] + [file for file in reversed(found)]
 
 
-def run(words, seconds=1800):
+def run(words, seconds=1800, folder=None):
     """The exit code, below 0 where it took more seconds of the processor, and the text."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-    result = subprocess.run(words, capture_output=True, text=True, preexec_fn=limit)
+    result = subprocess.run(words, capture_output=True, text=True, preexec_fn=limit, cwd=folder)
     return result.returncode, result.stdout + result.stderr
 
 
-def yosys(script):
-    code, text = run(["yosys", "-q", "-p", script])
+def yosys(script, folder=None, seconds=1800):
+    code, text = run(["yosys", "-q", "-p", script], seconds, folder)
     if code != 0:
         raise RuntimeError(text.strip().splitlines()[-1])
     return text
