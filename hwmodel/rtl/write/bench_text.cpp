@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kBenchHead =
     R"(// Streams the vectors through the pipeline, and compares what comes out. With +stalls=N, N of 8 cycles wait at
-// each end. It ends with an error at the first difference.
+// each end. It ends with an error at the first difference. With +load it only reads the vectors.
 module testbench;
   localparam TOKENS = {tokens}, WIDTH = {width};
   logic clk = 1'b0, rst = 1'b1, follows = 1'b1;
@@ -52,6 +52,7 @@ constexpr const char* kBenchTail = R"(
     $readmemh("in.hex", in_words);
     $readmemh("out.hex", out_words);
 {reads}    if ($value$plusargs("stalls=%d", stalls) == 0) stalls = 0;
+    if ($test$plusargs("load") != 0) $finish;
   end
 
   always #1 clk = ~clk;
