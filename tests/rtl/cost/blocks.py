@@ -35,16 +35,16 @@ def bits_of(number):
 
 
 def memories_of(scene, settings, lanes, folder):
-    """Width and words of each memory with a clocked read, and how often it is there."""
+    """Width and words of each memory, and how often it is there. Channels of a word are registers."""
     files, net = folder / f"{scene}_{lanes}", folder / "net.json"
-    written(files, scene, [*settings, f"hw.lanes={lanes}", "hw.fifo_depth=1"])  # channels are registers then
+    written(files, scene, [*settings, f"hw.lanes={lanes}", "hw.fifo_depth=1"])
     sources = sorted(RTL.glob("*.sv"), key=lambda file: file.name != "voxmelt_pkg.sv")
     yosys(f"read_verilog -sv -D VOXMELT_BLOCKS {' '.join(map(str, sources))} pipeline.sv; hierarchy -top pipeline; proc; flatten; "
           f"opt_clean; memory -nomap; write_json {net}", files)
     found = collections.Counter()
     for cell in json.loads(net.read_text())["modules"]["pipeline"]["cells"].values():
         given = cell["parameters"]
-        if cell["type"].startswith("$mem") and bits_of(given["RD_CLK_ENABLE"]) and bits_of(given["WR_PORTS"]):
+        if cell["type"].startswith("$mem") and bits_of(given["WR_PORTS"]) and bits_of(given["SIZE"]) > 2:
             found[bits_of(given["WIDTH"]), bits_of(given["SIZE"])] += 1
     return found
 
