@@ -93,14 +93,14 @@ def main():
         print(f"{words} words of {width} bits: {by_rule(width, words, shapes)} by the rule, {synthesised[width, words]} by synthesis, "
               f"in {times} pipelines")
     lines = ["<!-- Written by tests/rtl/cost/blocks.py -->", "# Blocks of memory", "",
-             "Memories of pipelines, in halves of a RAMB36E1: by the rule of `explore`, and by Yosys for 7 series, each alone.", "",
+             "Memories of pipelines, in halves of a RAMB36E1: by the rule of `explore`, and by Yosys for 7 series,", "each alone.", "",
              "| scene | lanes | memories | by the rule | by synthesis |", "|---|--:|--:|--:|--:|",
              *(f"| `{scene}` | {lanes} | {count} | {rule} | {found} |" for scene, lanes, count, rule, found in rows), "",
              f"Of {len(synthesised)} different memories {len(synthesised) - len(wrong)} take what the rule says.", "",
-             "Run it yourself: `python3 tests/rtl/cost/blocks.py --docs docs/results/rtl_blocks.md`. It wants Debian's `yosys`."]
+             "Run it yourself: `python3 tests/rtl/cost/blocks.py --docs docs/results/rtl_blocks.md`. It wants", "Debian's `yosys`."]
     if options.docs:
         options.docs.write_text("\n".join(lines) + "\n")
-    print(lines[-3])
+    print(lines[-4])
 
 
 if __name__ == "__main__":
