@@ -8,6 +8,7 @@ module apply_stage #(
     parameter HOT = 1,
     parameter TABLE = 1,                // shares may follow from the pattern
     parameter PRINTED = 1,              // the energy may be read as printed
+    parameter FOUR = 1,                 // neighbours may be four; eight give less each
     parameter DEPTH_SOUTH_EAST = 4096,  // of the memories: the longest delay, less one
     parameter DEPTH_NORTH = 32768,
     parameter DEPTH_EAST = 4096,
@@ -39,7 +40,9 @@ module apply_stage #(
 );
   localparam CELL = HOT != 0 ? 50 : 34;
   localparam SUM = HOT != 0 ? 64 : 32;
-  localparam WORD = SUM + 8 + CELL;           // {sum, pattern, cell}
+  localparam PART = FOUR != 0 ? 14 : 13;      // of what comes from the south
+  localparam SOUTH = HOT != 0 ? 3 * PART + 16 : 2 * PART;
+  localparam WORD = SOUTH + 8 + CELL;         // {sum, pattern, cell}
   localparam LATE = SUM + 34 + CELL;          // {sum, left energy, left amount, footing, cell}
   logic move, here, overlaps;
   voxmelt_pkg::place_t came, left;
@@ -101,7 +104,7 @@ module apply_stage #(
     localparam [0:0] ENDS = lane == P - 1;  // its eastern cells are in another token
     wire [49:0] south0_word = 50'(from_north[lane*WORD+:CELL]);
     wire [7:0] south0_pattern = from_north[lane*WORD+CELL+:8];
-    wire [63:0] south0_sum = 64'(from_north[lane*WORD+CELL+8+:SUM]);
+    wire [63:0] south0_sum = unpacked(from_north[lane*WORD+CELL+8+:SOUTH]);
     logic [49:0] stored, word0, south1;
     logic [7:0] pattern0;
     stored_of unpack (.cell_in(in_cells[lane*67+:67]), .stored(stored));
@@ -175,11 +178,11 @@ module apply_stage #(
         sc11 <= sc10;
         south12_sum <= added(sab11, sc11);
       end
-    assign to_south_east[lane*WORD+:WORD] = {sum12[SUM-1:0], pattern12, word12[CELL-1:0]};
+    assign to_south_east[lane*WORD+:WORD] = {packed_sum(sum12), pattern12, word12[CELL-1:0]};
     wire [WORD-1:0] turning = from_south_east[lane*WORD+:WORD];
-    wire [63:0] turned_sum = added(64'(turning[WORD-1-:SUM]), ENDS ? south_corner[0+:64] : 64'd0);
+    wire [63:0] turned_sum = added(unpacked(turning[WORD-1-:SOUTH]), ENDS ? south_corner[0+:64] : 64'd0);
     logic [WORD-1:0] turned;
-    always_ff @(posedge clk) if (move) turned <= {turned_sum[SUM-1:0], turning[CELL+7:0]};
+    always_ff @(posedge clk) if (move) turned <= {packed_sum(turned_sum), turning[CELL+7:0]};
     assign to_north[lane*WORD+:WORD] = turned;
 
     // Lane P - 1 waits for the next block, and is finished then. The others are finished, and wait.
@@ -224,6 +227,18 @@ module apply_stage #(
 
   function automatic [1:0] footing_on(input [1:0] below);
     footing_on = below == voxmelt_pkg::SOLID ? 2'd1 : below == voxmelt_pkg::INERT ? 2'd2 : 2'd0;
+  endfunction
+
+  // The sum of what comes from the south, as memories have it: the content, if there is heat, stands highest.
+  function automatic [SOUTH-1:0] packed_sum(input [63:0] sum);
+    packed_sum = SOUTH'({sum[32+:PART+16], sum[16+:PART], sum[0+:PART]});
+  endfunction
+  function automatic [63:0] unpacked(input [SOUTH-1:0] kept);
+    reg [3*PART+15:0] whole;
+    begin
+      whole = (3 * PART + 16)'(kept);
+      unpacked = {32'(whole[2*PART+:PART+16]), 16'(whole[PART+:PART]), 16'(whole[0+:PART])};
+    end
   endfunction
 
   function automatic [63:0] added(input [63:0] a, input [63:0] b);

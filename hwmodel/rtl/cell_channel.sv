@@ -3,6 +3,7 @@
 module cell_channel #(
     parameter P = 1,
     parameter HOT = 1,
+    parameter ENERGY = 16,  // bits of the energy; a solid has its material there
     parameter AXES = 0,
     parameter PATTERN = 0,
     parameter WALL = 0,
@@ -25,7 +26,7 @@ module cell_channel #(
     output logic [P-1:0]    out_runs,
     output logic [P*92-1:0] out_shows
 );
-  localparam CELL = HOT != 0 ? 50 : 34;
+  localparam CELL = 18 + ENERGY + (HOT != 0 ? 16 : 0);
   localparam AT_PATTERN = CELL + 2 * AXES, AT_WALL = AT_PATTERN + 8 * PATTERN, AT_TOUCHES = AT_WALL + WALL,
              AT_SET = AT_TOUCHES + TOUCHES, AT_RUN = AT_SET + SET, AT_SHOWS = AT_RUN + RUN,
              WORD = AT_SHOWS + 92 * SHOWS;
@@ -37,8 +38,21 @@ module cell_channel #(
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     wire [66:0] from = in_cells[lane*67+:67];
     wire [WORD-1:0] word = out_word[lane*WORD+:WORD];
-    assign in_word[lane*WORD+:CELL] = from[CELL-1:0];
-    assign out_cells[lane*67+:54] = 54'(word[CELL-1:0]);
+    assign in_word[lane*WORD+:18] = from[17:0];
+    assign out_cells[lane*67+:18] = word[17:0];
+    assign out_cells[lane*67+50+:4] = 4'd0;
+    if (ENERGY != 0) begin : energy
+      assign in_word[lane*WORD+18+:ENERGY] = from[18+:ENERGY];
+      assign out_cells[lane*67+18+:16] = 16'(word[18+:ENERGY]);
+    end else begin : no_energy
+      assign out_cells[lane*67+18+:16] = 16'd0;
+    end
+    if (HOT != 0) begin : heat
+      assign in_word[lane*WORD+18+ENERGY+:16] = from[49:34];
+      assign out_cells[lane*67+34+:16] = word[18+ENERGY+:16];
+    end else begin : no_heat
+      assign out_cells[lane*67+34+:16] = 16'd0;
+    end
     if (AXES != 0) begin : axes
       assign in_word[lane*WORD+CELL+:2] = from[55:54];
       assign out_cells[lane*67+54+:2] = word[CELL+:2];

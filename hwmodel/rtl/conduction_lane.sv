@@ -3,7 +3,9 @@
 // so the cell west, below and south of it wait in six registers, too.
 //
 // A word of the line is {touches, beside_wall, exposed, temperature, heat, energy, amount, state}.
-module conduction_lane (
+module conduction_lane #(
+    parameter MATERIALS = 0
+) (
     input  logic        clk,
     input  logic        move,
     input  logic [70:0] word_in,
@@ -17,7 +19,7 @@ module conduction_lane (
     input  logic [70:0] east,          // of the eastern cell in this token
     input  logic        east_there,
     input  logic [15:0] east_flow6,
-    input  logic [15:0] weight,
+    input  logic [(16<<(2*MATERIALS))-1:0] weights,
     input  logic [15:0] dither_x,      // of the step of the word in register 5
     input  logic [15:0] dither_y,
     input  logic [15:0] dither_z,
@@ -39,6 +41,10 @@ module conduction_lane (
     drop = there & conducts(p) & conducts(q) ? $signed({2'b0, q[65:50]}) - $signed({2'b0, p[65:50]}) : 18'sd0;
   endfunction
 
+  function automatic [4:0] looks(input [70:0] word);
+    looks = {word[1] ^ word[0], word[1:0] == voxmelt_pkg::SOLID ? word[21:18] : 4'd0};
+  endfunction
+
   // What the neighbours at its sides, below and in front of it tell about the cell in register 1, and what
   // that cell tells about the one below.
   wire air1 = word1[1:0] == voxmelt_pkg::AIR, matter1 = word1[1] ^ word1[0];
@@ -48,9 +54,16 @@ module conduction_lane (
   wire upright1 = at_end | (below_there & word2[1]);
   wire matter2 = word2[1] ^ word2[0];
 
-  product along_x (.clk(clk), .en(move), .a(drop_x2), .b({1'b0, weight}), .p(product_x5));
-  product along_y (.clk(clk), .en(move), .a(drop_y2), .b({1'b0, weight}), .p(product_y5));
-  product along_z (.clk(clk), .en(move), .a(drop_z2), .b({1'b0, weight}), .p(product_z5));
+  logic [15:0] weight_x2, weight_y2, weight_z2;
+  pair_weight #(.MATERIALS(MATERIALS)) of_x (
+      .clk(clk), .en(move), .p(looks(west)), .q(looks(word1)), .weights(weights), .weight(weight_x2));
+  pair_weight #(.MATERIALS(MATERIALS)) of_y (
+      .clk(clk), .en(move), .p(looks(word2)), .q(looks(word1)), .weights(weights), .weight(weight_y2));
+  pair_weight #(.MATERIALS(MATERIALS)) of_z (
+      .clk(clk), .en(move), .p(looks(south)), .q(looks(word1)), .weights(weights), .weight(weight_z2));
+  product along_x (.clk(clk), .en(move), .a(drop_x2), .b({1'b0, weight_x2}), .p(product_x5));
+  product along_y (.clk(clk), .en(move), .a(drop_y2), .b({1'b0, weight_y2}), .p(product_y5));
+  product along_z (.clk(clk), .en(move), .a(drop_z2), .b({1'b0, weight_z2}), .p(product_z5));
   wire signed [34:0] rounded_x = product_x5 + $signed({19'd0, dither_x});
   wire signed [34:0] rounded_y = product_y5 + $signed({19'd0, dither_y});
   wire signed [34:0] rounded_z = product_z5 + $signed({19'd0, dither_z});

@@ -7,10 +7,12 @@ module convection_lane (
     input  logic [15:0]        dither5,        // of the step of the cell in register 5
     input  logic [15:0]        melting_point,
     input  logic [15:0]        latent_heat,
+    input  logic [15:0]        top,
     input  logic [15:0]        weight,
     output voxmelt_pkg::cell_t cell_out        // 8 moves later
 );
   logic [15:0] temperature, warm1, warm2;
+  wire [15:0] warm0 = temperature < top ? temperature : top;
   temperature_unit unit (.heat(cell_in.heat), .melting_point(melting_point), .latent_heat(latent_heat),
                          .temperature(temperature));
   voxmelt_pkg::cell_t cell1, cell2, cell6, cell7;
@@ -26,7 +28,7 @@ module convection_lane (
   always_ff @(posedge clk)
     if (move) begin
       cell1 <= cell_in;
-      warm1 <= temperature;
+      warm1 <= warm0;
       floor1 <= on_floor;
       cell2 <= cell1;
       warm2 <= warm1;

@@ -16,6 +16,7 @@ module convection_stage #(
     input  logic [23:0]         lag,
     input  logic [15:0]         melting_point,
     input  logic [15:0]         latent_heat,
+    input  logic [15:0]         top,          // no temperature is beyond it
     input  logic [15:0]         weight
 );
   logic move, here, overlaps;
@@ -36,7 +37,7 @@ module convection_stage #(
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     convection_lane convection (
         .clk(clk), .move(move), .cell_in(in_cells[lane*67+:67]), .on_floor(on_floor), .dither5(dither5),
-        .melting_point(melting_point), .latent_heat(latent_heat), .weight(weight),
+        .melting_point(melting_point), .latent_heat(latent_heat), .top(top), .weight(weight),
         .cell_out(out_cells[lane*67+:67]));
   end
 endmodule

@@ -1,6 +1,11 @@
 // The stage corners: heat to neighbours across a corner.
 module corners_stage #(
     parameter P = 1,
+    parameter MATERIALS = 0,       // bits of their numbers; 0: there is one
+    parameter AXES = 1,            // what is known of a cell, and the bits of its energy that matter
+    parameter WALL = 1,
+    parameter TOUCHES = 1,
+    parameter ENERGY = 16,
     parameter DEPTH_EAST = 4096,   // of the memories: the longest delay, less one
     parameter DEPTH_NORTH = 32768,
     parameter DEPTH_SOUTH_EAST = 4096
@@ -20,10 +25,12 @@ module corners_stage #(
     input  logic [23:0]         east,         // length of the memory towards the east
     input  logic [23:0]         north,        // from there to the north
     input  logic [23:0]         south_east,   // and from there to the east again
-    input  logic [15:0]         melting_point,
-    input  logic [15:0]         latent_heat,
-    input  logic [15:0]         weight
+    input  logic                several,      // materials there are; else the first row of each table counts
+    input  logic [(49<<MATERIALS)-1:0] curves,
+    input  logic [15:0]         top,
+    input  logic [(16<<(2*MATERIALS))-1:0] weights  // of pairs, by both materials
 );
-  distant_pass #(.P(P), .CORNERS(1), .DEPTH_EAST(DEPTH_EAST), .DEPTH_NORTH(DEPTH_NORTH),
+  distant_pass #(.P(P), .CORNERS(1), .MATERIALS(MATERIALS), .AXES(AXES), .WALL(WALL),
+                 .TOUCHES(TOUCHES), .ENERGY(ENERGY), .DEPTH_EAST(DEPTH_EAST), .DEPTH_NORTH(DEPTH_NORTH),
                  .DEPTH_SOUTH_EAST(DEPTH_SOUTH_EAST)) pass (.*);
 endmodule

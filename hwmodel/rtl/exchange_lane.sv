@@ -1,6 +1,9 @@
 // Exchange of one lane: radiation, then air, then what the cell glows (docs/automaton.md, section 6). A
-// weight of 0 exchanges nothing.
-module exchange_lane (
+// weight of 0 exchanges nothing. Where there are materials, a cell waits for its temperature before each of the
+// last two, and registers are named without that.
+module exchange_lane #(
+    parameter MATERIALS = 0
+) (
     input  logic               clk,
     input  logic               move,
     input  voxmelt_pkg::cell_t cell_in,
@@ -9,33 +12,51 @@ module exchange_lane (
     input  logic [15:0]        dither7,
     input  logic [15:0]        dither20,
     input  logic [15:0]        ambient3,
-    input  logic [15:0]        melting_point,
-    input  logic [15:0]        latent_heat,
-    input  logic [47:0]        air_weights,    // with one, two and three exposed axes
+    input  logic               several,
+    input  logic [(49<<MATERIALS)-1:0] curves,
+    input  logic [15:0]        top,
+    input  logic [(48<<MATERIALS)-1:0] air_weights,  // with one, two and three exposed axes
     input  logic [47:0]        glow_weights,
     input  logic [15:0]        sky,            // the fourth power of its temperature
-    output voxmelt_pkg::cell_t cell_out        // 22 moves later
+    output voxmelt_pkg::cell_t cell_out        // 22 moves later, and 6 more with materials
 );
-  voxmelt_pkg::cell_t cell1, cell2, cell8, cell9, cell21;
+  voxmelt_pkg::cell_t cell1, cell2, cell2_warm, cell8, cell9, cell9_warm, cell21;
   logic [15:0] received1, warm3, warm10;
-  logic [15:0] weight2, weight9, air4, glow17;
+  logic [15:0] weight2, weight2_warm, weight9, weight9_warm, air4, glow17;
   logic signed [17:0] excess4, excess17, flow8, flow21;
   logic signed [34:0] product7, square13, fourth16, product20;
 
   wire [28:0] radiated = {1'b0, received1, 12'd0} + 29'(dither1);
   wire [16:0] lit = 17'(cell1.heat) + 17'(radiated[28:16]);
   wire [1:0] axes1 = cell1.exposed_axes;  // only matter has any
-  wire [15:0] weight1 = axes1 == 2'd3 ? air_weights[47:32] : axes1 == 2'd2 ? air_weights[31:16]
-                      : axes1 == 2'd1 ? air_weights[15:0] : 16'd0;
+  logic [3:0] material1, material2, material9;
+  logic [47:0] air1;
+  if (MATERIALS != 0) begin : many
+    material_of number (.stored({cell1.heat, cell1.energy, cell1.amount, cell1.state}), .material(material1));
+    always_ff @(posedge clk) if (move) material2 <= material1;
+    material_of later (.stored({cell9.heat, cell9.energy, cell9.amount, cell9.state}), .material(material9));
+    assign air1 = air_weights[48*material1[MATERIALS-1:0]+:48];
+  end else begin : one
+    assign {material1, material2, material9} = 12'd0;
+    assign air1 = air_weights;
+  end
+  wire [15:0] weight1 = axes1 == 2'd3 ? air1[47:32] : axes1 == 2'd2 ? air1[31:16]
+                      : axes1 == 2'd1 ? air1[15:0] : 16'd0;
   wire [1:0] axes8 = cell8.exposed_axes;
   wire [15:0] weight8 = axes8 == 2'd3 ? glow_weights[47:32] : axes8 == 2'd2 ? glow_weights[31:16]
                       : axes8 == 2'd1 ? glow_weights[15:0] : 16'd0;
 
   logic [15:0] temperature2, temperature9;
-  temperature_unit before_air (.heat(cell2.heat), .melting_point(melting_point), .latent_heat(latent_heat),
-                               .temperature(temperature2));
-  temperature_unit after_air (.heat(cell9.heat), .melting_point(melting_point), .latent_heat(latent_heat),
-                              .temperature(temperature9));
+  curve_unit #(.MATERIALS(MATERIALS)) before_air (
+      .clk(clk), .en(move), .heat(cell2.heat), .material(material2), .several(several), .curves(curves), .top(top),
+      .temperature(temperature2));
+  curve_unit #(.MATERIALS(MATERIALS)) after_air (
+      .clk(clk), .en(move), .heat(cell9.heat), .material(material9), .several(several), .curves(curves), .top(top),
+      .temperature(temperature9));
+  curve_wait #(.WIDTH(83), .MATERIALS(MATERIALS)) air_waits (
+      .clk(clk), .en(move), .several(several), .d({weight2, cell2}), .q({weight2_warm, cell2_warm}));
+  curve_wait #(.WIDTH(83), .MATERIALS(MATERIALS)) glow_waits_for_it (
+      .clk(clk), .en(move), .several(several), .d({weight9, cell9}), .q({weight9_warm, cell9_warm}));
   product of_air (.clk(clk), .en(move), .a(excess4), .b({1'b0, air4}), .p(product7));
   product square (.clk(clk), .en(move), .a($signed({2'b0, warm10})), .b({1'b0, warm10}), .p(square13));
   product fourth (.clk(clk), .en(move), .a($signed({2'b0, square13[31:16]})), .b({1'b0, square13[31:16]}),
@@ -43,10 +64,10 @@ module exchange_lane (
   product of_glow (.clk(clk), .en(move), .a(excess17), .b({1'b0, glow17}), .p(product20));
 
   logic [15:0] weight3, weight16;
-  delay #(.WIDTH(16), .N(1)) weight_waits (.clk(clk), .en(move), .d(weight2), .q(weight3));
-  delay #(.WIDTH(16), .N(7)) glow_waits (.clk(clk), .en(move), .d(weight9), .q(weight16));
-  delay #(.WIDTH(67), .N(6)) waits_for_air (.clk(clk), .en(move), .d(cell2), .q(cell8));
-  delay #(.WIDTH(67), .N(12)) waits_for_glow (.clk(clk), .en(move), .d(cell9), .q(cell21));
+  delay #(.WIDTH(16), .N(1)) weight_waits (.clk(clk), .en(move), .d(weight2_warm), .q(weight3));
+  delay #(.WIDTH(16), .N(7)) glow_waits (.clk(clk), .en(move), .d(weight9_warm), .q(weight16));
+  delay #(.WIDTH(67), .N(6)) waits_for_air (.clk(clk), .en(move), .d(cell2_warm), .q(cell8));
+  delay #(.WIDTH(67), .N(12)) waits_for_glow (.clk(clk), .en(move), .d(cell9_warm), .q(cell21));
 
   wire signed [34:0] rounded7 = product7 + $signed({19'd0, dither7});
   wire signed [34:0] rounded20 = product20 + $signed({19'd0, dither20});

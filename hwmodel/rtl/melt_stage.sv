@@ -1,6 +1,7 @@
 // The stage melt: P lanes behind ready and valid.
 module melt_stage #(
-    parameter P = 1
+    parameter P = 1,
+    parameter MATERIALS = 0  // bits of their numbers; 0: there is one
 ) (
     input  logic                clk,
     input  logic                rst,
@@ -16,7 +17,7 @@ module melt_stage #(
     input  logic [23:0]         lag,
     input  logic                paper,          // the law
     input  logic [15:0]         freezes_below,
-    input  logic [15:0]         liquid_from,
+    input  logic [(33<<MATERIALS)-1:0] melting,  // of each material, see melt_lane.sv
     input  logic [15:0]         reheat
 );
   logic move, here, overlaps;
@@ -31,8 +32,8 @@ module melt_stage #(
       .step_left(step_left), .fill(fill), .drained(drained));
 
   for (genvar lane = 0; lane < P; lane++) begin : lanes
-    melt_lane melt (
+    melt_lane #(.MATERIALS(MATERIALS)) melt (
         .clk(clk), .move(move), .cell_in(in_cells[lane*67+:67]), .paper(paper), .freezes_below(freezes_below),
-        .liquid_from(liquid_from), .reheat(reheat), .cell_out(out_cells[lane*67+:67]));
+        .melting(melting), .reheat(reheat), .cell_out(out_cells[lane*67+:67]));
   end
 endmodule

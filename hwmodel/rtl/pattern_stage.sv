@@ -43,6 +43,8 @@ module pattern_stage #(
   localparam EARLY = CELL + 3 + 16;   // {diagonal limit, south-east, south-west, south, cell}
   localparam PLANE = CELL + 3;
   localparam LATE = CELL + 8 + 32;    // {limits, pattern, cell}
+  // Only the last lane's limits wait for another token.
+  localparam EARLY_WORD = P * PLANE + 16, LATE_WORD = P * (CELL + 8) + 32;
   logic move, here, overlaps;
   voxmelt_pkg::place_t came, left;
   logic [31:0] step_came, step_left;
@@ -67,12 +69,23 @@ module pattern_stage #(
   logic [P*EARLY-1:0] to_south_east, from_south_east;
   logic [P*PLANE-1:0] to_north, from_north;
   logic [P*LATE-1:0] to_east, from_east;
-  line_memory #(.WIDTH(P * EARLY), .DEPTH(DEPTH_SOUTH_EAST)) early (
-      .clk(clk), .rst(rst), .en(move), .delay(south_east), .d(to_south_east), .q(from_south_east));
+  logic [EARLY_WORD-1:0] in_early, out_early;
+  logic [LATE_WORD-1:0] in_late, out_late;
+  line_memory #(.WIDTH(EARLY_WORD), .DEPTH(DEPTH_SOUTH_EAST)) early (
+      .clk(clk), .rst(rst), .en(move), .delay(south_east), .d(in_early), .q(out_early));
   line_memory #(.WIDTH(P * PLANE), .DEPTH(DEPTH_NORTH)) planes (
       .clk(clk), .rst(rst), .en(move), .delay(north), .d(to_north), .q(from_north));
-  line_memory #(.WIDTH(P * LATE), .DEPTH(DEPTH_EAST)) late (
-      .clk(clk), .rst(rst), .en(move), .delay(east), .d(to_east), .q(from_east));
+  line_memory #(.WIDTH(LATE_WORD), .DEPTH(DEPTH_EAST)) late (
+      .clk(clk), .rst(rst), .en(move), .delay(east), .d(in_late), .q(out_late));
+  assign in_early[P*PLANE+:16] = to_south_east[P*EARLY-1-:16];
+  assign in_late[P*(CELL+8)+:32] = to_east[P*LATE-1-:32];
+  for (genvar lane = 0; lane < P; lane++) begin : stored
+    localparam [0:0] ENDS = lane == P - 1;
+    assign in_early[lane*PLANE+:PLANE] = to_south_east[lane*EARLY+:PLANE];
+    assign from_south_east[lane*EARLY+:EARLY] = {ENDS ? out_early[P*PLANE+:16] : 16'd0, out_early[lane*PLANE+:PLANE]};
+    assign in_late[lane*(CELL+8)+:CELL+8] = to_east[lane*LATE+:CELL+8];
+    assign from_east[lane*LATE+:LATE] = {ENDS ? out_late[P*(CELL+8)+:32] : 32'd0, out_late[lane*(CELL+8)+:CELL+8]};
+  end
 
   // The random block of a token is begun 11 moves before the token can use it.
   voxmelt_pkg::place_t drawn;

@@ -7,6 +7,7 @@
 module settle_stage #(
     parameter P = 1,
     parameter HOT = 1,
+    parameter MATERIALS = 0,  // bits of their numbers; 0: there is one
     parameter THERMAL = 1,   // mobility depends on heat
     parameter FREEZES = 1,
     parameter SUM = 28,      // bits of the amount of a run
@@ -35,10 +36,7 @@ module settle_stage #(
     input  logic [15:0]         mobility_rate,
     input  logic [23:0]         yield_stress,
     input  logic [3:0]          stiffness,
-    input  logic [15:0]         liquid_from,
-    input  logic [15:0]         melt_range,
-    input  logic [1:0]          melt_shift,
-    input  logic [13:0]         melt_scale,
+    input  logic [(48<<MATERIALS)-1:0] beds,  // of each material, see bed_unit.sv
     output logic                holds       // a serial divider works
 );
   logic [P-1:0] rises, sinks;
@@ -96,7 +94,7 @@ module settle_stage #(
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     logic [SUM+LAST+52:0] word24, word1;
     logic [SUM+LAST+35:0] word7, word_up1;
-    sum_scan #(.SUM(SUM), .LAST(LAST)) sums (
+    sum_scan #(.SUM(SUM), .LAST(LAST), .MATERIALS(MATERIALS)) sums (
         .clk(clk), .rst(rst), .move(move), .cell_in(here ? in_cells[lane*67+:67] : {17'd0, voxmelt_pkg::BORDER}),
         .bottom(came.y == 12'd0), .live4(fill >= 24'd4), .hot(hot), .dither4(odd4 ? odd_dither : even_dither),
         .dither19(odd19 ? odd_dither : even_dither), .works(rises[lane]), .word(word24));
@@ -104,11 +102,10 @@ module settle_stage #(
         .clk(clk), .rst(rst), .move(move), .word1(word1), .highest1(at_down1 == 12'd0),
         .live6(fill >= 24'(last.y) + 24'd31), .dither6(odd_down6 ? odd_dither : even_dither),
         .works(sinks[lane]), .word7(word7));
-    show_scan #(.SUM(SUM), .LAST(LAST)) show (
+    show_scan #(.SUM(SUM), .LAST(LAST), .MATERIALS(MATERIALS)) show (
         .clk(clk), .move(move), .word1(word_up1), .y10(y10), .pace10(pace_now), .hot(hot),
         .thermal(thermal), .mobility_reference(mobility_reference), .mobility_rate(mobility_rate),
-        .yield_stress(yield_stress), .stiffness(stiffness), .liquid_from(liquid_from), .melt_range(melt_range),
-        .melt_shift(melt_shift), .melt_scale(melt_scale), .cell_out(out_cells[lane*67+:67]),
+        .yield_stress(yield_stress), .stiffness(stiffness), .beds(beds), .cell_out(out_cells[lane*67+:67]),
         .in_run(out_runs[lane]), .shows(out_shows[lane*92+:92]));
 
     wire [DOWN-1:0] stored = from_down[lane*DOWN+:DOWN];

@@ -4,7 +4,8 @@
 // The loops are what a run still has for the cells above: one subtraction, and one addition.
 module show_scan #(
     parameter SUM = 28,
-    parameter LAST = 12
+    parameter LAST = 12,
+    parameter MATERIALS = 0
 ) (
     input  logic                 clk,
     input  logic                 move,
@@ -17,10 +18,7 @@ module show_scan #(
     input  logic [15:0]          mobility_rate,
     input  logic [23:0]          yield_stress,
     input  logic [3:0]           stiffness,
-    input  logic [15:0]          liquid_from,
-    input  logic [15:0]          melt_range,
-    input  logic [1:0]           melt_shift,
-    input  logic [13:0]          melt_scale,
+    input  logic [(48<<MATERIALS)-1:0] beds,
     output voxmelt_pkg::cell_t   cell_out,  // in register 39, as those below
     output logic                 in_run,
     output logic [91:0]          shows      // {shut, dead, limit, mobility, head}, in a run
@@ -33,10 +31,9 @@ module show_scan #(
   // Registers 2 to 10: the bed, and what the run has beyond full cells.
   logic [WORD-1:0] word6, word10;
   logic [13:0] rise10, rise11;
-  bed_unit bed (
+  bed_unit #(.MATERIALS(MATERIALS)) bed (
       .clk(clk), .en(move), .solid(word1[2:0] == SOLID), .amount(word1[3+:16]), .heat(word1[AT_HEAT+:16]),
-      .hot(hot), .liquid_from(liquid_from), .melt_range(melt_range), .melt_shift(melt_shift),
-      .melt_scale(melt_scale), .rise(rise10));
+      .material(word1[19+:4]), .hot(hot), .beds(beds), .rise(rise10));
   delay #(.WIDTH(WORD), .N(5)) early (.clk(clk), .en(move), .d(word1), .q(word6));
   delay #(.WIDTH(WORD), .N(4)) late (.clk(clk), .en(move), .d(word6), .q(word10));
   wire [LAST-1:0] last6 = word6[AT_LAST+:LAST];
@@ -73,6 +70,13 @@ module show_scan #(
       .stiffness(stiffness), .head(head38), .mobility(mobility38), .limit(limit38), .dead(dead38));
   logic [38:0] cell13, cell38;  // {shut, lowest, set, in a run, blocked, heat, amount, state}
   delay #(.WIDTH(39), .N(25)) waits (.clk(clk), .en(move), .d(cell13), .q(cell38));
+  logic [3:0] material38;  // of a solid, which has it in place of energy
+  if (MATERIALS != 0) begin : many
+    delay #(.WIDTH(4), .N(28)) numbers (
+        .clk(clk), .en(move), .d(word10[2:0] == SOLID ? word10[19+:4] : 4'd0), .q(material38));
+  end else begin : one
+    assign material38 = 4'd0;
+  end
   wire run38 = cell38[35], lowest38 = cell38[37];
   logic [91:0] run39;  // what the run shows that was begun last
   logic run_out;
@@ -125,5 +129,6 @@ module show_scan #(
       cell_out.amount <= cell38[17:2];
       cell_out.heat <= cell38[33:18];
       cell_out.is_set <= cell38[36];
+      cell_out.energy <= {12'd0, material38};
     end
 endmodule

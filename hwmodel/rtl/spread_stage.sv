@@ -8,6 +8,7 @@
 module spread_stage #(
     parameter P = 1,
     parameter HOT = 1,
+    parameter MATERIALS = 0,  // bits of their numbers; 0: there is one
     parameter DEPTH_SOUTH_EAST = 4096,  // of the memories: the longest delay, less one
     parameter DEPTH_NORTH = 32768,
     parameter DEPTH_FINISHED = 4120,
@@ -36,12 +37,9 @@ module spread_stage #(
     input  logic [23:0]         finished,
     input  logic                finds_walls,
     input  logic                hot,
-    input  logic [15:0]         liquid_from,
-    input  logic [15:0]         melt_range,
-    input  logic [1:0]          melt_shift,
-    input  logic [13:0]         melt_scale
+    input  logic [(48<<MATERIALS)-1:0] beds  // of each material, see bed_unit.sv
 );
-  localparam HEATS = HOT != 0 ? 16 : 0;
+  localparam HEATS = HOT != 0 ? 16 + MATERIALS : 0;  // heat, and the material above it
   localparam WORD = 92 + HEATS, DONE = 20 + HEATS, SUM = HOT != 0 ? 48 : 16;
   logic move, here, overlaps;
   voxmelt_pkg::place_t came, left;
@@ -140,8 +138,8 @@ module spread_stage #(
   logic [19:0] west_bed1, south_west_bed1;
   logic [167:0] west_seen2, south_west_seen2;
   logic [13:0] west_edges2, south_west_edges2;
-  unpack_spread #(.HOT(HOT)) unpack_west (.stored(from_west[(P-1)*WORD+:WORD]), .word(west_word0));
-  unpack_spread #(.HOT(HOT)) unpack_south_west (.stored(from_south_west), .word(south_west_word0));
+  unpack_spread #(.HOT(HOT), .MATERIALS(MATERIALS)) unpack_west (.stored(from_west[(P-1)*WORD+:WORD]), .word(west_word0));
+  unpack_spread #(.HOT(HOT), .MATERIALS(MATERIALS)) unpack_south_west (.stored(from_south_west), .word(south_west_word0));
   run_reader west_reader (
       .clk(clk), .move(move), .word0(west_word0), .y0(y0), .pace0(floor_west), .bed1(west_bed1), .seen2(west_seen2));
   run_reader south_west_reader (
@@ -173,12 +171,12 @@ module spread_stage #(
     logic [107:0] word1, word2;
     logic [61:0] above2;
     logic wall2;
-    spread_taker taker (
+    logic [3:0] material0, material2, material23;
+    spread_taker #(.MATERIALS(MATERIALS)) taker (
         .clk(clk), .move(move), .cell_in(here ? in_cells[lane*67+:67] : {17'd0, voxmelt_pkg::BORDER}),
-        .in_run(here & in_runs[lane]), .shows(in_shows[lane*92+:92]), .hot(hot), .liquid_from(liquid_from),
-        .melt_range(melt_range), .melt_shift(melt_shift), .melt_scale(melt_scale),
-        .word0(words0[lane*108+:108]), .pace0(paces0[lane*62+:62]));
-    unpack_spread #(.HOT(HOT)) unpack_south (
+        .in_run(here & in_runs[lane]), .shows(in_shows[lane*92+:92]), .hot(hot), .beds(beds),
+        .word0(words0[lane*108+:108]), .pace0(paces0[lane*62+:62]), .material0(material0));
+    unpack_spread #(.HOT(HOT), .MATERIALS(MATERIALS)) unpack_south (
         .stored(from_south[lane*WORD+:WORD]), .word(souths0[lane*108+:108]));
     run_reader #(.BRINGS(1)) reader (
         .clk(clk), .move(move), .word0(word0), .y0(y0), .pace0(paces0[lane*62+:62]), .bed1(beds1[lane*20+:20]),
@@ -260,12 +258,19 @@ module spread_stage #(
     logic [35:0] done23;
     if (HOT != 0) begin : heats
       assign to_west[lane*WORD+20+:16] = word2[35:20];
-      assign done23 = from_done[lane*DONE+:DONE];
+      assign done23 = from_done[lane*DONE+:36];
     end else begin : no_heats
       assign done23 = {16'd0, from_done[lane*DONE+:DONE]};
     end
-    spread_finish finish (
-        .clk(clk), .move(move), .word23(done23), .amount26(finished_sum[15:0]), .content26(finished_sum[47:16]),
+    if (MATERIALS != 0) begin : many
+      delay #(.WIDTH(4), .N(2)) numbers (.clk(clk), .en(move), .d(material0), .q(material2));
+      assign to_west[lane*WORD+36+:MATERIALS] = material2[MATERIALS-1:0];
+      assign material23 = 4'(from_done[lane*DONE+36+:MATERIALS]);
+    end else begin : one
+      assign material23 = 4'd0;
+    end
+    spread_finish #(.MATERIALS(MATERIALS)) finish (
+        .clk(clk), .move(move), .word23(done23), .material23(material23), .amount26(finished_sum[15:0]), .content26(finished_sum[47:16]),
         .dither27(finish_dither), .hot(hot), .finds_walls(finds_walls), .cell_out(out_cells[lane*67+:67]),
         .in_run(out_runs[lane]));
   end
@@ -284,13 +289,14 @@ endmodule
 
 // The word of a memory, with heat or without it.
 module unpack_spread #(
-    parameter HOT = 1
+    parameter HOT = 1,
+    parameter MATERIALS = 0
 ) (
-    input  logic [92+(HOT!=0?16:0)-1:0] stored,
+    input  logic [92+(HOT!=0?16+MATERIALS:0)-1:0] stored,
     output logic [107:0]                word
 );
   if (HOT != 0) begin : heats
-    assign word = stored;
+    assign word = {stored[36+MATERIALS+:72], stored[35:0]};
   end else begin : no_heats
     assign word = {stored[91:20], 16'd0, stored[19:0]};
   end

@@ -7,10 +7,12 @@
 // order is a bit, two registers later. Heat that moves up needs a division before the next cell can come, so
 // it waits.
 //
-// A word is {set, mean heat, amount at the top, ordered, heat, cells less one, sum or amount, kind}.
+// A word is {set, mean heat, amount at the top, ordered, heat, cells less one, sum or amount, kind}. A solid's
+// amount has its material above it.
 module sum_scan #(
     parameter SUM = 28,  // bits of a run's sum
-    parameter LAST = 12  // and of its number of cells, less one
+    parameter LAST = 12, // and of its number of cells, less one
+    parameter MATERIALS = 0
 ) (
     input  logic                    clk,
     input  logic                    rst,
@@ -30,6 +32,7 @@ module sum_scan #(
   // Register 2: the loop of runs. `total` is that of the run with the cell in register 2, and `face` was the
   // excess at its lower face.
   voxmelt_pkg::cell_t cell1, cell2, cell3, cell4;
+  logic [3:0] material5, material6, material22, material23;
   logic bottom1, half2;
   logic signed [16:0] above1;
   logic [2:0] kind1, kind2, kind3, kind4;
@@ -80,6 +83,17 @@ module sum_scan #(
   logic [SUM+15:0] rounding22;
   long_product #(.A(SUM), .B(16)) times_dither (
       .clk(clk), .en(move), .a(divisors[12*SUM+:SUM]), .b(dither19), .p(rounding22));
+  if (MATERIALS != 0) begin : many
+    always_ff @(posedge clk)
+      if (move) begin
+        material5 <= cell4.state == voxmelt_pkg::SOLID ? cell4.energy[3:0] : 4'd0;
+        material6 <= material5;
+        material23 <= material22;
+      end
+    delay #(.WIDTH(4), .N(16)) numbers (.clk(clk), .en(move), .d(material6), .q(material22));
+  end else begin : one
+    assign {material5, material6, material22, material23} = 16'd0;
+  end
   logic [LAST+37:0] rest_of_word22, rest_of_word23;
   delay #(.WIDTH(LAST + 38), .N(16)) waits (
       .clk(clk), .en(move), .d({record6, set6, top6, ordered6, heat6, last6, kind6}), .q(rest_of_word22));
@@ -149,6 +163,6 @@ module sum_scan #(
       rest_of_word23 <= rest_of_word22;
 
       word <= {set23, (kind23 == TOP) | (kind23 == SINGLE) ? mean23 : 16'd0, top23, ordered23,
-               record23 ? rounded23 : heat23, last23, sum23, kind23};
+               record23 ? rounded23 : heat23, {last23, sum23} | (SUM + LAST)'({material23, 16'd0}), kind23};
     end
 endmodule

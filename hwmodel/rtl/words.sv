@@ -6,6 +6,14 @@ module stored_of (
   assign stored = {cell_in.heat, cell_in.energy, cell_in.amount, cell_in.state};
 endmodule
 
+// A solid has no energy, and its material stands there (docs/automaton.md, section 1).
+module material_of (
+    input  voxmelt_pkg::stored_t stored,
+    output logic [3:0]           material  // 0 of what is not solid
+);
+  assign material = stored.state == voxmelt_pkg::SOLID ? stored.energy[3:0] : 4'd0;
+endmodule
+
 module cell_of (
     input  voxmelt_pkg::stored_t stored,
     input  logic [1:0]           exposed_axes,

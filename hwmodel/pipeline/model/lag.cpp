@@ -36,9 +36,13 @@ Openings openings_of(const Design& design) {
 }
 
 int registers_of(StageKind kind, const Design& design) {
+  return design.registers ? circuit_registers(kind, design) : 0;
+}
+
+int circuit_registers(StageKind kind, const Design& design) {
   using enum StageKind;
-  if (!design.registers) return 0;
   const Openings openings = openings_of(design);
+  const int curve = design.of_materials() ? kCurveRegisters : 0;
   switch (kind) {
     case fall:
     case walls:
@@ -46,14 +50,15 @@ int registers_of(StageKind kind, const Design& design) {
     case source:
       return 8 + kOpeningRegisters * (openings.vents + openings.drains);
     case conduction:
+      return 7 + curve;
     case convection:
       return 7;
     case edges:
-      return 9;
+      return 9 + curve;
     case corners:
-      return 8;
-    case exchange:
-      return 22;
+      return 8 + curve;
+    case exchange:  // before the air, and before it glows
+      return 22 + 2 * curve;
     case melt:
       return 5;
     case gravity:  // its circuit always looks at the cell above the upper one

@@ -20,10 +20,14 @@ struct Lag {
 Lag lag_of(StageKind kind, const Design& design);
 
 // Returns the registers that the circuit of a stage has beyond its lag, in tokens (hwmodel/rtl). It is 0 for
-// a stage that is not written in SystemVerilog, and in a design without them.
+// a stage that is not written in SystemVerilog.
+int circuit_registers(StageKind kind, const Design& design);
+// Returns the same, and 0 in a design without them.
 int registers_of(StageKind kind, const Design& design);
 // A vent or a drain has so many of them.
 inline constexpr int kOpeningRegisters = 26;
+// The temperature of a cell takes so many of them where there are several materials.
+inline constexpr int kCurveRegisters = 3;
 // Returns how many vents and drains the circuit of stage source has room for.
 struct Openings {
   int vents, drains;

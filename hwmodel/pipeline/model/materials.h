@@ -16,6 +16,11 @@ namespace voxmelt::hwmodel {
 class Curves {
  public:
   static constexpr int kBits = 17 + 16 + 16;  // of a row: warmth, melting point, what is beyond it
+  struct Curve {
+    UInt<17> warmth = 65536;
+    UInt<16> melting_point, beyond;
+    UInt<17> as_first;  // heat of the first material at this one's melting point, when liquid
+  };
 
   explicit Curves(const rule::Parameters& parameters);
 
@@ -42,14 +47,10 @@ class Curves {
     const UInt<16> after = h - liquid_from(material);
     return std::min<std::int64_t>(kHeatMax, after + std::int64_t{looked_up(curves_, material).as_first});
   }
+  const std::vector<Curve>& rows() const { return curves_; }
+  std::int64_t top() const { return top_; }  // no temperature is beyond it
 
  private:
-  struct Curve {
-    UInt<17> warmth = 65536;
-    UInt<16> melting_point, beyond;
-    UInt<17> as_first;  // heat of the first material at this one's melting point, when liquid
-  };
-
   std::vector<Curve> curves_;
   UInt<16> top_ = kHeatMax;
 };

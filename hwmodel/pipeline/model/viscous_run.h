@@ -48,8 +48,7 @@ class SolidBed {
     const UInt<13> filled = std::min<std::int64_t>(amount, kMostFilled);
     return UInt<26>(filled * part) >> 15;
   }
-  // Returns the constants of the first material.
-  const Melt& melt() const { return melts_.front(); }
+  const std::vector<Melt>& melts() const { return melts_; }  // of each material
 
  private:
   static constexpr std::int64_t kMostFilled = 4095 + 2048;  // no bed offset is beyond 4095

@@ -6,7 +6,7 @@
 #include "hwmodel/pipeline/model/lag.h"
 #include "hwmodel/pipeline/model/paper_flow.h"
 #include "hwmodel/pipeline/model/random_block.h"
-#include "hwmodel/pipeline/model/viscous_run.h"
+#include "hwmodel/rtl/host/material_tables.h"
 #include "hwmodel/rtl/host/port_bits.h"
 
 namespace voxmelt::hwmodel {
@@ -30,7 +30,6 @@ class Ports {
         p_(design.parameters),
         line_{design.shape.column(), design.shape.plane(), design.shape.blocks() == 1} {
     if (design.shape.tiled()) ports_.refusal = "a grid is one tile";
-    if (design.of_materials()) ports_.refusal = "there is one material";
     const Shape& shape = design.shape;
     add("last", packed(shape.grid.y - 1, shape.blocks() - 1, shape.grid.z - 1, 12));
     fill(kind);
@@ -64,8 +63,8 @@ class Ports {
     if (kind == source) add_source();
     if (kind == walls) add_walls();
     if (kind == conduction) add_conduction();
-    if (kind == edges) add_distant(p_.heat.weight_edge);
-    if (kind == corners) add_distant(p_.heat.weight_corner);
+    if (kind == edges) add_distant(kind, p_.heat.weight_edge, &rule::SolidMaterial::weight_edge);
+    if (kind == corners) add_distant(kind, p_.heat.weight_corner, &rule::SolidMaterial::weight_corner);
     if (kind == convection) add_convection();
     if (kind == exchange) add_exchange();
     if (kind == melt) add_melt();
@@ -76,10 +75,21 @@ class Ports {
     if (kind == viscous_spread) add_spread();
   }
 
+  // Of the first material.
   void add_curve() {
     add("melting_point", p_.material.melting_point);
     add("latent_heat", p_.material.latent_heat);
+    add("top", Curves(p_).top());
   }
+  void add_curves() {
+    add("several", design_.of_materials() ? 1 : 0);
+    ports_.wide.emplace_back("curves", curve_rows(design_, sizes_.material_bits));
+    add("top", Curves(p_).top());
+  }
+  void add_weights(std::uint16_t only, PairWeights::Row row) {
+    ports_.wide.emplace_back("weights", pair_rows(design_, only, row, sizes_.material_bits));
+  }
+  std::int64_t registers(StageKind kind) const { return circuit_registers(kind, design_); }
 
   void add_walls() {
     add("lag", line_.plane + 1);
@@ -134,22 +144,22 @@ class Ports {
   }
 
   void add_conduction() {
-    add("lag", line_.plane + 7);
+    add("lag", line_.plane + registers(StageKind::conduction));
     add_memories("east", "north", line_.column - 8, line_.plane - 13);
     add("counts_axes", p_.heat.air ? 1 : 0);
     add("finds_walls", design_.walls_in_conduction() ? 1 : 0);
     add("finds_touched", design_.freezes() ? 1 : 0);
-    add("weight", p_.heat.weight_face);
-    add_curve();
+    add_weights(p_.heat.weight_face, &rule::SolidMaterial::weight_face);
+    add_curves();
   }
 
   // A cell takes part in windows a plane and a column long, and waits for eight registers behind each tap.
-  void add_distant(std::int64_t weight) {
-    add("lag", line_.plane + line_.column + 9);
+  void add_distant(StageKind kind, std::uint16_t weight, PairWeights::Row row) {
+    add("lag", lag_of(kind, design_).tokens(design_.shape) + registers(kind));
     add_memories("east", "north", line_.column - 8, line_.plane - 16);
     add_memory("south_east", line_.column - 8);
-    add("weight", weight);
-    add_curve();
+    add_weights(weight, row);
+    add_curves();
   }
 
   void add_convection() {
@@ -160,15 +170,12 @@ class Ports {
 
   void add_exchange() {
     const rule::Heat& heat = p_.heat;
-    const auto weights = [](std::int64_t rate) {
-      return static_cast<std::int64_t>(packed(rate, rate * 5 >> 2, rate * 6 >> 2, 16));
-    };
     const auto square = [](std::int64_t value) { return value * value >> 16; };
-    add("lag", 22);
-    add("air_weights", heat.air ? weights(heat.air_exchange) : 0);
-    add("glow_weights", heat.air ? weights(heat.air_glow) : 0);
+    add("lag", registers(StageKind::exchange));
+    ports_.wide.emplace_back("air_weights", air_rows(design_, sizes_.material_bits));
+    add("glow_weights", heat.air ? static_cast<std::int64_t>(exchange_weights(heat.air_glow)) : 0);
     add("sky", square(square(heat.air_sky)));
-    add_curve();
+    add_curves();
     ports_.table.assign(heat.air_temperature.begin(), heat.air_temperature.end());
   }
 
@@ -176,7 +183,7 @@ class Ports {
     add("lag", 5);
     add("paper", design_.paper() ? 1 : 0);
     add("freezes_below", design_.freezes() ? p_.material.freezing_point : 0);
-    add("liquid_from", p_.material.melting_point + p_.material.latent_heat);
+    ports_.wide.emplace_back("melting", melting_rows(design_, sizes_.material_bits));
     add("reheat", design_.paper() ? p_.flow.paper.reheat : 0);
   }
 
@@ -251,12 +258,8 @@ class Ports {
 
   // A solid's bed follows from its amount and its heat.
   void add_bed() {
-    const SolidBed bed(design_);
     add("hot", design_.hot() ? 1 : 0);
-    add("liquid_from", p_.material.melting_point + p_.material.latent_heat);
-    add("melt_range", bed.melt().range);
-    add("melt_shift", bed.melt().shift);
-    add("melt_scale", bed.melt().scale);
+    ports_.wide.emplace_back("beds", bed_rows(design_, sizes_.material_bits));
   }
 
   void add_settle() {
@@ -294,7 +297,12 @@ RtlPorts rtl_ports(StageKind kind, const Design& design, const RtlSizes& sizes) 
 }
 
 RtlSizes sizes_of(const Design& design) {
-  return {design.parameters.vents.size(), design.parameters.drains.size(), kAny, kAny};
+  return {design.parameters.vents.size(), design.parameters.drains.size(), kAny, kAny,
+          design.of_materials() ? bits_for(design.materials() - 1) : 0};
+}
+
+int energy_bits(const Design& design, const RtlSizes& sizes) {
+  return design.paper() ? 16 : sizes.material_bits;
 }
 
 bool is_memory(std::string_view port) {

@@ -29,10 +29,13 @@ struct RtlPorts {
 struct RtlSizes {
   std::size_t vents, drains;
   std::int64_t north, column;
+  int material_bits;  // of the number of a material; 0: there is one
 };
-inline constexpr RtlSizes kCompiled{2, 2, 32769, 4097};  // by Verilator, see hwmodel/rtl/*_stage.sv
+inline constexpr RtlSizes kCompiled{2, 2, 32769, 4097, 4};  // by Verilator, see hwmodel/rtl/*_stage.sv
 inline constexpr std::int64_t kAny = std::int64_t{1} << 24;
 
+// Returns how many bits a cell's energy takes in the memories of a scene. A solid has its material there.
+int energy_bits(const Design& design, const RtlSizes& sizes);
 RtlPorts rtl_ports(StageKind kind, const Design& design, const RtlSizes& sizes = kCompiled);
 // Returns the sizes that suit a scene.
 RtlSizes sizes_of(const Design& design);

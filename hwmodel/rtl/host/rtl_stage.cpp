@@ -22,10 +22,11 @@ struct CellBits {
   std::uint32_t high;
 };
 
+// A solid has no energy, and its material stands there.
 CellBits bits_of(const Cell& cell) {
   const auto at = [](std::int64_t value, int bit) { return static_cast<std::uint64_t>(value) << bit; };
-  return {static_cast<std::uint64_t>(cell.state) | at(cell.amount, 2) | at(cell.energy, 18) |
-              at(cell.heat, 34) | at(cell.material, 50) | at(cell.exposed_axes, 54) | at(cell.pattern, 56),
+  return {static_cast<std::uint64_t>(cell.state) | at(cell.amount, 2) | at(cell.energy | cell.material, 18) |
+              at(cell.heat, 34) | at(cell.exposed_axes, 54) | at(cell.pattern, 56),
           static_cast<std::uint32_t>(cell.beside_wall | cell.touches << 1 | cell.set << 2)};
 }
 
@@ -36,9 +37,11 @@ Cell cell_of(const CellBits& bits) {
   Cell cell;
   cell.state = static_cast<State>(bits.low & 3);
   cell.amount = part(2, 0xFFFF);
-  cell.energy = part(18, 0xFFFF);
+  if (cell.state == State::solid)
+    cell.material = part(18, 15);
+  else
+    cell.energy = part(18, 0xFFFF);
   cell.heat = part(34, 0xFFFF);
-  cell.material = part(50, 15);
   cell.exposed_axes = part(54, 3);
   cell.pattern = part(56, 255);
   cell.beside_wall = bits.high & 1;

@@ -17,6 +17,8 @@
 namespace voxmelt::hwmodel {
 namespace {
 
+// Scenes of several materials have words with heat, even where nothing is hot.
+bool kept_heat(const Design& design) { return design.hot() || design.of_materials(); }
 bool fed(const Design& design) { return design.hot() && design.parameters.heat.radiation; }
 
 // Writes a number of so many bits from words of 32 bits, the lowest first.
@@ -31,6 +33,10 @@ int bits_of_wide(std::string_view name, const RtlSizes& sizes) {
   if (name == "keys") return 320;
   if (name == "shares") return 512;
   if (name == "table_shares") return 1024;
+  if (name == "weights") return 16 << (2 * sizes.material_bits);
+  if (name == "curves") return 49 << sizes.material_bits;
+  if (name == "melting") return 33 << sizes.material_bits;
+  if (name == "beds" || name == "air_weights") return 48 << sizes.material_bits;
   return 199 * std::max(1, static_cast<int>(sizes.vents + sizes.drains));
 }
 
@@ -44,7 +50,7 @@ std::string upper(std::string_view name) {
 class Writer {
  public:
   Writer(const Design& design, const Configuration& configuration)
-      : design_(design), c_(configuration), sizes_(sizes_of(design)), hot_(design.hot() ? 1 : 0) {}
+      : design_(design), c_(configuration), sizes_(sizes_of(design)), hot_(kept_heat(design) ? 1 : 0), energy_(energy_bits(design, sizes_)) {}
 
   std::string text() {
     head();
@@ -84,8 +90,8 @@ class Writer {
     const state::Grid& grid = design_.shape.grid;
     add("// The pipeline of a grid of {} x {} x {} cells: {} lanes, {} time steps in a row.\n", grid.x,
         grid.y, grid.z, c_.lanes, c_.cascade);
-    add("// A token is {} cells along x, the lowest first: {{{}energy, amount, state}} each. Tokens come "
-        "with z\n"
+    add("// A token is {} cells along x, the lowest first: {{{}energy, amount, state}} each. A solid has its "
+        "material\n// in place of the energy. Tokens come with z\n"
         "// outermost, then blocks along x, then y.\n",
         c_.lanes, hot_ != 0 ? "heat, " : "");
     add("module pipeline (\n    input  logic clk,\n    input  logic rst,\n"
@@ -111,9 +117,9 @@ class Writer {
     add("  logic {0}_in_valid, {0}_in_ready, {0}_valid, {0}_ready;\n  logic [{1}:0] {0}_in_cells, "
         "{0}_cells;\n  logic [{2}:0] {0}_in_runs, {0}_runs;\n  logic [{3}:0] {0}_in_shows, {0}_shows;\n",
         name, 67 * c_.lanes - 1, c_.lanes - 1, 92 * c_.lanes - 1);
-    add("  cell_channel #(.P({}), .HOT({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), .SET({}), "
+    add("  cell_channel #(.P({}), .HOT({}), .ENERGY({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), .SET({}), "
         ".RUN({}), .SHOWS({}), .DEPTH({})) {} (\n",
-        c_.lanes, hot_, int{bands.has(Wire::exposed_axes)}, int{bands.has(Wire::pattern)},
+        c_.lanes, hot_, energy_, int{bands.has(Wire::exposed_axes)}, int{bands.has(Wire::pattern)},
         int{bands.has(Wire::beside_wall)}, int{bands.has(Wire::touches)}, int{bands.has(Wire::set)},
         int{bands.has(Wire::in_run)}, int{bands.has(Wire::head)}, depth, name);
     add("      .clk(clk), .rst(rst), .in_valid({0}_in_valid), .in_ready({0}_in_ready), "
@@ -204,12 +210,19 @@ class Writer {
       text += fmt::format(", .HOT({})", hot_);
     if (kind == apply) {
       const rule::PaperLaw& law = design_.parameters.flow.paper;
-      text += fmt::format(", .TABLE({}), .PRINTED({})", int{law.use_table},
-                          int{law.reading == rule::EnergyReading::printed});
+      text += fmt::format(", .TABLE({}), .PRINTED({}), .FOUR({})", int{law.use_table},
+                          int{law.reading == rule::EnergyReading::printed}, int{law.neighbours != 8});
     }
+    if (kind == conduction || kind == edges || kind == corners)
+      text += fmt::format(", .AXES({}), .WALL({}), .TOUCHES({}), .ENERGY({})", int{design_.parameters.heat.air},
+                          int{design_.walls_in_conduction()}, int{design_.freezes()}, energy_);
+    if (sizes_.material_bits > 0 &&
+        (kind == conduction || kind == edges || kind == corners || kind == exchange || kind == melt ||
+         kind == settle || kind == viscous_spread))
+      text += fmt::format(", .MATERIALS({})", sizes_.material_bits);
     if (kind == source) text += fmt::format(", .VENTS({}), .DRAINS({})", sizes_.vents, sizes_.drains);
     if (kind == exchange) {
-      text += fmt::format(", .HEIGHT({})", design_.shape.grid.y);
+      text += fmt::format(", .HEIGHT({})", design_.parameters.heat.air ? design_.shape.grid.y : 1);
       if (design_.parameters.heat.air) text += ", .AIR(\"air.hex\")";
     }
     if (kind == settle) {
@@ -237,14 +250,14 @@ class Writer {
   const Design& design_;
   const Configuration& c_;
   RtlSizes sizes_;
-  int hot_;
+  int hot_, energy_;
   int copy_ = 0;  // which sub-step settle and spread are of
   std::string text_;
 };
 
 }  // namespace
 
-int stored_bits(const Design& design) { return design.hot() ? 50 : 34; }
+int stored_bits(const Design& design) { return kept_heat(design) ? 50 : 34; }
 
 std::vector<std::uint16_t> air_words(const Design& design) {
   const auto& air = design.parameters.heat.air_temperature;

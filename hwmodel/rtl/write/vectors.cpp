@@ -47,8 +47,10 @@ std::uint64_t stored_word(const state::Volume& volume, int x, int y, int z) {
                       : volume.solid.test(x, y, z)  ? State::solid
                       : volume.liquid.test(x, y, z) ? State::liquid
                                                     : State::air;
+  const std::uint16_t energy =
+      state == State::solid && !volume.material.empty() ? volume.material[at] : volume.energy[at];
   return static_cast<std::uint64_t>(state) | std::uint64_t{volume.amount[at]} << 2 |
-         std::uint64_t{volume.energy[at]} << 18 | std::uint64_t{volume.heat[at]} << 34;
+         std::uint64_t{energy} << 18 | std::uint64_t{volume.heat[at]} << 34;
 }
 
 }  // namespace
