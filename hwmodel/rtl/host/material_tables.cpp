@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "hwmodel/pipeline/model/viscous_run.h"
 
@@ -27,7 +28,8 @@ class Filled {
 
 PortWords curve_rows(const Design& design, int bits) {
   Filled rows(std::int64_t{49} << bits);
-  for (const Curves::Curve& curve : Curves(design.parameters).rows()) {
+  const Curves curves(design.parameters);
+  for (const Curves::Curve& curve : curves.rows()) {
     rows.put(curve.warmth, 17);
     rows.put(curve.melting_point, 16);
     rows.put(curve.beyond, 16);
