@@ -19,6 +19,7 @@ namespace voxmelt::hwmodel {
 struct Seen {
   int worlds = 0, refused = 0;
   int overlaps = 0;                           // trains of several passes
+  int materials = 0;                          // worlds with several
   int holds = 0;                              // worlds in which a serial divider held a stage
   std::map<std::string, std::int64_t> cells;  // by stage that stood in
 };
@@ -60,17 +61,11 @@ inline void agree(const Start& start, Configuration c, std::uint32_t steps,
   for (const TrainReport& train : report.trains) seen.overlaps += train.passes > 1;
   seen.holds += wanted.cycles != wanted.predicted_cycles && c.stall_seed == 0;
   ++seen.worlds;
+  seen.materials += start.parameters.has_materials();
   const auto cells = static_cast<std::int64_t>(start.volume.grid.cells());
   for (const StageKind kind : stages_of_step(design))
     if (rtl_has(kind) && (only.empty() || std::find(only.begin(), only.end(), name_of(kind)) != only.end()))
       seen.cells[std::string(name_of(kind))] += cells * steps;
-}
-
-inline Start viscous_start(std::uint64_t seed, state::Grid grid) {
-  Start start = hostile_start(seed, rule::Law::viscous, grid);
-  start.parameters.materials.clear();  // the circuits know one
-  start.volume.material = {};
-  return start;
 }
 
 inline Start world(std::uint64_t seed, int lanes, rule::Law law = rule::Law::paper) {
@@ -78,7 +73,7 @@ inline Start world(std::uint64_t seed, int lanes, rule::Law law = rule::Law::pap
   state::Grid grid{random.between(1, 5 * lanes), random.between(12, 26),
                    random.one_in(2) ? random.between(8, 14) : random.between(1, 5)};
   if (seed % 3 == 0) grid.x = (grid.x + lanes - 1) / lanes * lanes;  // the last block is full
-  Start start = law == rule::Law::viscous ? viscous_start(seed, grid) : hostile_start(seed, law, grid);
+  Start start = hostile_start(seed, law, grid);
   start.parameters.flow.paper.use_table &= random.one_in(4);
   if (random.between(0, 3) != 0) start.parameters.flow.paper.reading = rule::EnergyReading::text;
   return start;
