@@ -65,7 +65,8 @@ void one_stage(StageKind kind, int worlds, rule::Law law = rule::Law::paper) {
   }
   EXPECT_GT(seen.worlds, all_rounds() ? 8 : 2);
   EXPECT_GT(seen.cells[name], 0);
-  if (kind == StageKind::fall) return;    // the host finds pieces before each step
+  if (kind != StageKind::walls) EXPECT_GT(seen.materials, 0);  // it is there without heat
+  if (kind == StageKind::fall) return;                         // the host finds pieces before each step
   if (law == rule::Law::viscous) return;  // most of these worlds are shorter than its lags: see `overlapping`
   EXPECT_GT(seen.overlaps, 0);
 }
@@ -83,6 +84,7 @@ void all_stages(int lanes, int worlds, rule::Law law) {
     agree(world(static_cast<std::uint64_t>(seed) + 500, lanes, law), c, 6, {}, seed + 1, seen);
   }
   EXPECT_GT(seen.worlds, all_rounds() ? 8 : 2);
+  EXPECT_GT(seen.materials, 0);
   EXPECT_GE(seen.cells.size(), 7u);
   EXPECT_GT(seen.holds, 1);
   EXPECT_GT(seen.overlaps, law == rule::Law::paper && all_rounds() ? 1 : 0);  // the viscous law has long lags
@@ -121,7 +123,7 @@ void overlapping(StageKind kind) {
   const int lanes = rtl_lanes().back();
   for (int seed = 0; seed < some(20) && !testing::Test::HasFatalFailure(); ++seed) {
     const auto number = static_cast<std::uint64_t>(seed);
-    Start start = viscous_start(number + 700, {5 * lanes, 12, 14});
+    Start start = hostile_start(number + 700, rule::Law::viscous, {5 * lanes, 12, 14});
     if (!start.parameters.heat.enabled) continue;
     start.parameters.flow.viscous.substeps = 1;
     start.parameters.heat.radiation = false;  // its steps end a train
@@ -143,8 +145,9 @@ TEST(StagesInRtl, SettleHigh) {
   Seen seen;
   const int lanes = rtl_lanes().back();
   for (int seed = 2; seed < 26 && !testing::Test::HasFatalFailure(); seed += 3) {  // layers
-    const Start start = viscous_start(static_cast<std::uint64_t>(seed) + 900, {2 * lanes, 40, 3});
-    agree(of_runs(static_cast<std::uint64_t>(seed), start), {lanes, 1, 2}, 2, {"settle"}, seed, seen);
+    const auto number = static_cast<std::uint64_t>(seed);
+    const Start start = hostile_start(number + 900, rule::Law::viscous, {2 * lanes, 40, 3});
+    agree(of_runs(number, start), {lanes, 1, 2}, 2, {"settle"}, seed, seen);
   }
   Start full{"full to the border", {}, state::Volume({2 * lanes, 130, 2})};
   full.parameters.flow.law = rule::Law::viscous;
