@@ -72,6 +72,18 @@ TEST(ScenesInRtl, CropsOfTheShowcase) {
   EXPECT_EQ(seen.refused, 0);
 }
 
+TEST(ScenesInRtl, CropsOfSeveralMaterials) {
+  if (!there_are_circuits()) GTEST_SKIP() << "this program was built without Verilator";
+  Seen seen;
+  for (const char* name : {"candle", "chocolate_nuts"}) {
+    const Start start = crop(start_of(name, 200, {}), 24);
+    for (std::size_t row = 0; row < kRows.size() && !HasFatalFailure(); ++row)
+      all_stages(start, row, 2, seen);
+  }
+  EXPECT_EQ(seen.worlds, 2 * 9);
+  EXPECT_EQ(seen.materials, 2 * 9);
+}
+
 TEST(ScenesInRtl, TeachingScenes) {
   if (!there_are_circuits()) GTEST_SKIP() << "this program was built without Verilator";
   Seen seen;

@@ -65,7 +65,9 @@ void one_stage(StageKind kind, int worlds, rule::Law law = rule::Law::paper) {
   }
   EXPECT_GT(seen.worlds, all_rounds() ? 8 : 2);
   EXPECT_GT(seen.cells[name], 0);
-  if (kind != StageKind::walls) EXPECT_GT(seen.materials, 0);  // it is there without heat
+  if (kind != StageKind::walls) {  // it is there without heat
+    EXPECT_GT(seen.materials, 0);
+  }
   if (kind == StageKind::fall) return;                         // the host finds pieces before each step
   if (law == rule::Law::viscous) return;  // most of these worlds are shorter than its lags: see `overlapping`
   EXPECT_GT(seen.overlaps, 0);
