@@ -68,7 +68,7 @@ void one_stage(StageKind kind, int worlds, rule::Law law = rule::Law::paper) {
   if (kind != StageKind::walls) {  // it is there without heat
     EXPECT_GT(seen.materials, 0);
   }
-  if (kind == StageKind::fall) return;                         // the host finds pieces before each step
+  if (kind == StageKind::fall) return;    // the host finds pieces before each step
   if (law == rule::Law::viscous) return;  // most of these worlds are shorter than its lags: see `overlapping`
   EXPECT_GT(seen.overlaps, 0);
 }

@@ -1,5 +1,5 @@
-// What the circuits know of each material (docs/automaton.md, section 6): rows of constants, the first material's
-// lowest. A scene of one material has one row.
+// What the circuits know of each material (docs/automaton.md, section 6): rows of constants, the first
+// material's lowest. A scene of one material has one row.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,11 @@ std::string upper(std::string_view name) {
 class Writer {
  public:
   Writer(const Design& design, const Configuration& configuration)
-      : design_(design), c_(configuration), sizes_(sizes_of(design)), hot_(kept_heat(design) ? 1 : 0), energy_(energy_bits(design, sizes_)) {}
+      : design_(design),
+        c_(configuration),
+        sizes_(sizes_of(design)),
+        hot_(kept_heat(design) ? 1 : 0),
+        energy_(energy_bits(design, sizes_)) {}
 
   std::string text() {
     head();
@@ -117,7 +121,8 @@ class Writer {
     add("  logic {0}_in_valid, {0}_in_ready, {0}_valid, {0}_ready;\n  logic [{1}:0] {0}_in_cells, "
         "{0}_cells;\n  logic [{2}:0] {0}_in_runs, {0}_runs;\n  logic [{3}:0] {0}_in_shows, {0}_shows;\n",
         name, 67 * c_.lanes - 1, c_.lanes - 1, 92 * c_.lanes - 1);
-    add("  cell_channel #(.P({}), .HOT({}), .ENERGY({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), .SET({}), "
+    add("  cell_channel #(.P({}), .HOT({}), .ENERGY({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), "
+        ".SET({}), "
         ".RUN({}), .SHOWS({}), .DEPTH({})) {} (\n",
         c_.lanes, hot_, energy_, int{bands.has(Wire::exposed_axes)}, int{bands.has(Wire::pattern)},
         int{bands.has(Wire::beside_wall)}, int{bands.has(Wire::touches)}, int{bands.has(Wire::set)},
@@ -214,8 +219,9 @@ class Writer {
                           int{law.reading == rule::EnergyReading::printed}, int{law.neighbours != 8});
     }
     if (kind == conduction || kind == edges || kind == corners)
-      text += fmt::format(", .AXES({}), .WALL({}), .TOUCHES({}), .ENERGY({})", int{design_.parameters.heat.air},
-                          int{design_.walls_in_conduction()}, int{design_.freezes()}, energy_);
+      text +=
+          fmt::format(", .AXES({}), .WALL({}), .TOUCHES({}), .ENERGY({})", int{design_.parameters.heat.air},
+                      int{design_.walls_in_conduction()}, int{design_.freezes()}, energy_);
     if (sizes_.material_bits > 0 &&
         (kind == conduction || kind == edges || kind == corners || kind == exchange || kind == melt ||
          kind == settle || kind == viscous_spread))

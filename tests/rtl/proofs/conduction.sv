@@ -21,7 +21,7 @@ module proof (
   conduction_lane dut (
       .clk(clk), .move(1'b1), .word_in(word_in), .west_there(west_there), .below_there(below_there),
       .south_there(south_there), .at_side(1'b0), .at_end(1'b0), .west(west), .south(south), .east(71'd0),
-      .east_there(east_there), .east_flow6(east_flow6), .weight(weight), .dither_x(dither_x), .dither_y(dither_y),
+      .east_there(east_there), .east_flow6(east_flow6), .weights(weight), .dither_x(dither_x), .dither_y(dither_y),
       .dither_z(dither_z), .word1(word1), .word2(word2), .word9(word9), .west_flow6(west_flow6),
       .south_flow6(south_flow6), .flow_y6(flow_y6), .drop_x2(drop_x2),
       .drop_y2(drop_y2), .drop_z2(drop_z2));

@@ -6,25 +6,27 @@ module proof (
     input logic [15:0] dither5,
     input logic [15:0] melting_point,
     input logic [15:0] latent_heat,
+    input logic [15:0] top,
     input logic [15:0] weight
 );
   voxmelt_pkg::cell_t cell_out;
   logic [15:0] temperature, drop2;
   convection_lane dut (
       .clk(clk), .move(1'b1), .cell_in(cell_in), .on_floor(on_floor), .dither5(dither5),
-      .melting_point(melting_point), .latent_heat(latent_heat), .weight(weight), .cell_out(cell_out),
+      .melting_point(melting_point), .latent_heat(latent_heat), .top(top), .weight(weight), .cell_out(cell_out),
       .temperature(temperature), .drop2(drop2));
   logic [7:0] age;
   moves count (.clk(clk), .age(age));
-  logic [47:0] numbers, numbers1;
-  assign numbers = {melting_point, latent_heat, weight};
-  past #(.WIDTH(48), .N(1)) stay (.clk(clk), .d(numbers), .q(numbers1));
+  logic [63:0] numbers, numbers1;
+  assign numbers = {melting_point, latent_heat, top, weight};
+  past #(.WIDTH(64), .N(1)) stay (.clk(clk), .d(numbers), .q(numbers1));
   always_comb if (age != 8'd0) assume (numbers == numbers1);
 
   // Section 6: T(h) = h up to Tm, and max(Tm, h - L) above.
   wire [15:0] h = cell_in.heat;
   wire [15:0] above_latent = h > latent_heat ? h - latent_heat : 16'd0;
-  wire [15:0] t = h <= melting_point ? h : above_latent > melting_point ? above_latent : melting_point;
+  wire [15:0] warm = h <= melting_point ? h : above_latent > melting_point ? above_latent : melting_point;
+  wire [15:0] t = warm < top ? warm : top;
 
   voxmelt_pkg::cell_t p, q8;
   logic [15:0] warm_p, flow6, flow7;

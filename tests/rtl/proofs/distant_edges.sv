@@ -5,14 +5,14 @@ module proof (
     input logic west_there,
     input logic below_there,
     input logic south_there,
-    input logic [16:0] here,
-    input logic [16:0] west,
-    input logic [16:0] below,
-    input logic [16:0] west_below,
-    input logic [16:0] south,
-    input logic [16:0] south_west,
-    input logic [16:0] south_below,
-    input logic [16:0] south_west_below,
+    input logic [21:0] here,
+    input logic [21:0] west,
+    input logic [21:0] below,
+    input logic [21:0] west_below,
+    input logic [21:0] south,
+    input logic [21:0] south_west,
+    input logic [21:0] south_below,
+    input logic [21:0] south_west_below,
     input logic [15:0] weight,
     input logic [15:0] dither5
 );
@@ -23,14 +23,14 @@ module proof (
   distant_lane dut (
       .clk(clk), .move(1'b1), .west_there(west_there), .below_there(below_there), .south_there(south_there),
       .here(here), .west(west), .below(below), .west_below(west_below), .south(south), .south_west(south_west),
-      .south_below(south_below), .south_west_below(south_west_below), .weight(weight), .dither5(dither5),
+      .south_below(south_below), .south_west_below(south_west_below), .weights(weight), .dither5(dither5),
       .here7(here7), .west7(west7), .below7(below7), .west_below7(west_below7), .south7(south7),
       .south_west7(south_west7), .south_below7(south_below7), .south_west_below7(south_west_below7),
       .drops2(drops2), .flows6(flows6));
   logic [7:0] age;
   moves count (.clk(clk), .age(age));
 
-  function automatic signed [17:0] drop(input there, input [16:0] p, input [16:0] q);
+  function automatic signed [17:0] drop(input there, input [21:0] p, input [21:0] q);
     drop = there & p[16] & q[16] ? $signed({2'b0, q[15:0]}) - $signed({2'b0, p[15:0]}) : 18'sd0;
   endfunction
   logic [PAIRS*18-1:0] due2;

@@ -9,7 +9,7 @@ module proof (
 );
   voxmelt_pkg::cell_t cell_out, c;
   melt_lane dut (.clk(clk), .move(1'b1), .cell_in(cell_in), .paper(paper), .freezes_below(freezes_below),
-                 .liquid_from(liquid_from), .reheat(reheat), .cell_out(cell_out));
+                 .melting({17'd0, liquid_from}), .reheat(reheat), .cell_out(cell_out));
   logic [7:0] age;
   moves count (.clk(clk), .age(age));
   logic [48:0] numbers, numbers1;

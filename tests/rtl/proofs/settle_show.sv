@@ -14,7 +14,7 @@ module proof (
   show_scan dut (
       .clk(clk), .move(1'b1), .word1(word1), .y10(y10), .pace10(36'd0), .hot(1'b0), .thermal(1'b0),
       .mobility_reference(16'd0), .mobility_rate(16'd0), .yield_stress(24'd0), .stiffness(4'd0),
-      .liquid_from(16'd0), .melt_range(16'd0), .melt_shift(2'd0), .melt_scale(14'd0), .level10_now(level10_now),
+      .beds(48'd0), .level10_now(level10_now),
       .level11(level11), .spare10_now(spare10_now), .spare11(spare11), .base11(base11), .more11(more11),
       .amount12(amount12), .kind11(kind11));
   logic [7:0] age;
