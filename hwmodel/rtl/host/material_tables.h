@@ -1,5 +1,5 @@
-// What the circuits know of each material (docs/automaton.md, section 6): rows of constants, the first
-// material's lowest. A scene of one material has one row.
+// The circuits know each material by rows of constants (docs/automaton.md, section 6). The first material's
+// row is the lowest one. A scene of one material has one row.
 #pragma once
 
 #include <cstdint>

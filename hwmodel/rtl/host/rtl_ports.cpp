@@ -75,7 +75,6 @@ class Ports {
     if (kind == viscous_spread) add_spread();
   }
 
-  // Of the first material.
   void add_curve() {
     add("melting_point", p_.material.melting_point);
     add("latent_heat", p_.material.latent_heat);
