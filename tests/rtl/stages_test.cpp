@@ -33,6 +33,13 @@ Start of_runs(std::uint64_t seed, const Start& any) {
   for (int z = 0; z < grid.z; ++z)
     for (int x = 0; x < grid.x; ++x)
       worlds::put_layers(random, start.volume, x, z, start.parameters.heat.enabled);
+  if (!start.parameters.has_materials()) return start;
+  start.volume.material = state::Field<std::uint8_t>(grid);
+  const int last = static_cast<int>(start.parameters.materials.size()) - 1;
+  worlds::for_each({0, 0, 0, grid.x, grid.y, grid.z}, [&](int x, int y, int z) {
+    if (start.volume.solid.test(x, y, z))
+      start.volume.material[start.volume.at(x, y, z)] = static_cast<std::uint8_t>(random.between(0, last));
+  });
   return start;
 }
 

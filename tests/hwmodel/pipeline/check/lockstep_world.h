@@ -62,6 +62,8 @@ inline Start crop(const Start& whole, int side) {
         }
       }
   Start cut{whole.name + " crop", whole.parameters, state::Volume({side, side, side}), whole.step};
+  const bool of_materials = !whole.volume.material.empty();
+  if (of_materials) cut.volume.material = state::Field<std::uint8_t>(cut.volume.grid);
   worlds::for_each({0, 0, 0, side, side, side}, [&](int x, int y, int z) {
     const state::Slot from = whole.volume.at(x0 + x, y0 + y, z0 + z), to = cut.volume.at(x, y, z);
     cut.volume.solid.set(x, y, z, whole.volume.solid.test(x0 + x, y0 + y, z0 + z));
@@ -70,6 +72,7 @@ inline Start crop(const Start& whole, int side) {
     cut.volume.amount[to] = whole.volume.amount[from];
     cut.volume.energy[to] = whole.volume.energy[from];
     cut.volume.heat[to] = whole.volume.heat[from];
+    if (of_materials) cut.volume.material[to] = whole.volume.material[from];
   });
   const auto move = [&](rule::Position& at) {
     at.x -= 16 * x0;
