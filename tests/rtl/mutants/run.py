@@ -67,6 +67,12 @@ def sources_of(stage):
     return [f"{part}.sv" for part in parts] + [f"{stage}_stage.sv"]
 
 
+def parameters_of(stage):
+    """What a stage is compiled with beside its lanes."""
+    those, what = re.search(r'stage MATCHES "(.*?)"\)\s*set\(materials (.*?)\)', (RTL / "CMakeLists.txt").read_text()).groups()
+    return what.split() if re.match(those, stage) else []
+
+
 def lanes_of():
     """One lane and several differ little, so only the most lanes are compiled anew."""
     cache = (BUILD / "CMakeCache.txt").read_text()
@@ -82,7 +88,7 @@ def compile_stage(folder, stage):
     objects = []
     for lanes in lanes_of():
         prefix, made = f"rtl_{stage}_p{lanes}", folder / f"p{lanes}"
-        done = run(["verilator", "--cc", "-Wno-fatal", "-Wno-lint", "-O3", "--flatten", f"-GP={lanes}", "--x-assign", "unique", "--x-initial",
+        done = run(["verilator", "--cc", "-Wno-fatal", "-Wno-lint", "-O3", "--flatten", f"-GP={lanes}", *parameters_of(stage), "--x-assign", "unique", "--x-initial",
                     "unique", "--prefix", prefix, "--top-module", f"{stage}_stage", "--Mdir", made, *sources_of(stage)],
                    folder)
         if done.returncode == 0:
