@@ -72,16 +72,26 @@ TEST(ScenesInRtl, CropsOfTheShowcase) {
   EXPECT_EQ(seen.refused, 0);
 }
 
+// In the middle of the melt, where liquid lies beside solids of both materials.
 TEST(ScenesInRtl, CropsOfSeveralMaterials) {
   if (!there_are_circuits()) GTEST_SKIP() << "this program was built without Verilator";
   Seen seen;
-  for (const char* name : {"candle", "chocolate_nuts"}) {
-    const Start start = crop(start_of(name, 200, {}), 24);
+  for (const auto& [name, ahead] : {std::pair("candle", 3000U), std::pair("chocolate_nuts", 1500U)}) {
+    const Start start = crop(start_of(name, ahead), 24);
+    const state::Volume& volume = start.volume;
+    ASSERT_GT(volume.liquid.count(), 1000) << name;
+    std::array<int, 2> solids{};
+    worlds::for_each({0, 0, 0, 24, 24, 24}, [&](int x, int y, int z) {
+      if (volume.solid.test(x, y, z)) ++solids[volume.material[volume.at(x, y, z)] > 0 ? 1 : 0];
+    });
+    ASSERT_GT(solids[0], 1000) << name;
+    ASSERT_GT(solids[1], 40) << name;
     for (std::size_t row = 0; row < kRows.size() && !HasFatalFailure(); ++row)
-      all_stages(start, row, 2, seen);
+      all_stages(start, row, 5, seen);
   }
   EXPECT_EQ(seen.worlds, 2 * 9);
   EXPECT_EQ(seen.materials, 2 * 9);
+  EXPECT_GT(seen.holds, 2);
 }
 
 TEST(ScenesInRtl, TeachingScenes) {
