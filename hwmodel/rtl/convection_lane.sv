@@ -12,9 +12,8 @@ module convection_lane (
     output voxmelt_pkg::cell_t cell_out        // 8 moves later
 );
   logic [15:0] temperature, warm1, warm2;
-  wire [15:0] warm0 = temperature < top ? temperature : top;
   temperature_unit unit (.heat(cell_in.heat), .melting_point(melting_point), .latent_heat(latent_heat),
-                         .temperature(temperature));
+                         .top(top), .temperature(temperature));
   voxmelt_pkg::cell_t cell1, cell2, cell6, cell7;
   logic floor1;
   logic [15:0] drop2;
@@ -28,7 +27,7 @@ module convection_lane (
   always_ff @(posedge clk)
     if (move) begin
       cell1 <= cell_in;
-      warm1 <= warm0;
+      warm1 <= temperature;
       floor1 <= on_floor;
       cell2 <= cell1;
       warm2 <= warm1;

@@ -17,22 +17,21 @@ module curve_unit #(
 );
   logic [15:0] first;
   temperature_unit of_first (
-      .heat(heat), .melting_point(curves[32:17]), .latent_heat(curves[48:33]), .temperature(first));
+      .heat(heat), .melting_point(curves[32:17]), .latent_heat(curves[48:33]), .top(top),
+      .temperature(first));
   if (MATERIALS != 0) begin : many
     wire [48:0] row = curves[49*material[MATERIALS-1:0]+:49];
     logic [15:0] later0, later3;
     logic signed [34:0] warm3;
     temperature_unit when_liquid (
-        .heat(heat), .melting_point(row[32:17]), .latent_heat(row[48:33]), .temperature(later0));
+        .heat(heat), .melting_point(row[32:17]), .latent_heat(row[48:33]), .top(top),
+        .temperature(later0));
     product times_warmth (.clk(clk), .en(en), .a($signed({2'b0, heat})), .b(row[16:0]), .p(warm3));
-    delay #(.WIDTH(16), .N(3)) waits (.clk(clk), .en(en), .d(below(later0, top)), .q(later3));
-    assign temperature = several ? below(warm3[31:16], later3) : below(first, top);
+    delay #(.WIDTH(16), .N(3)) waits (.clk(clk), .en(en), .d(later0), .q(later3));
+    assign temperature = ~several ? first : warm3[31:16] < later3 ? warm3[31:16] : later3;
   end else begin : one
     assign temperature = first;
   end
-  function automatic [15:0] below(input [15:0] a, input [15:0] b);
-    below = a < b ? a : b;
-  endfunction
 endmodule
 
 // What waits for the temperature of a cell.

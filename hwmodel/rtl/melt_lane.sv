@@ -35,7 +35,7 @@ module melt_lane #(
   voxmelt_pkg::cell_t cell1, cell2, cell4;
   logic [15:0] lacks1, after1;
   logic [16:0] as_first1;
-  logic warms1, warms2, warms4, turns1;
+  logic warms1, warms2, warms4, melts1, turns1;
   wire [17:0] turned1 = 18'(after1) + 18'(as_first1);
   logic signed [34:0] gain4;
   product times_reheat (
@@ -46,14 +46,17 @@ module melt_lane #(
       cell1 <= cell_in;
       cell1.touches <= 1'b0;
       cell1.is_set <= cold & ~freezes;
-      cell1.state <= freezes ? voxmelt_pkg::SOLID : melts ? voxmelt_pkg::LIQUID : cell_in.state;
-      cell1.energy <= freezes | (melts & ~paper) ? 16'd0 : melts ? cell_in.amount : cell_in.energy;
+      if (freezes) cell1.state <= voxmelt_pkg::SOLID;
+      if (freezes) cell1.energy <= 16'd0;
+      melts1 <= melts;
       turns1 <= melts & (material != 4'd0);
       after1 <= cell_in.heat - row[15:0];
       as_first1 <= row[32:16];
       lacks1 <= cell_in.amount - cell_in.energy;
       warms1 <= warms;
       cell2 <= cell1;
+      if (melts1) cell2.state <= voxmelt_pkg::LIQUID;
+      if (melts1) cell2.energy <= paper ? cell1.amount : 16'd0;
       if (turns1) cell2.heat <= turned1 > 18'd65535 ? 16'hFFFF : turned1[15:0];
       warms2 <= warms1;
       cell_out <= cell4;

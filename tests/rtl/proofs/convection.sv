@@ -14,7 +14,7 @@ module proof (
   convection_lane dut (
       .clk(clk), .move(1'b1), .cell_in(cell_in), .on_floor(on_floor), .dither5(dither5),
       .melting_point(melting_point), .latent_heat(latent_heat), .top(top), .weight(weight), .cell_out(cell_out),
-      .warm0(temperature), .drop2(drop2));
+      .temperature(temperature), .drop2(drop2));
   logic [7:0] age;
   moves count (.clk(clk), .age(age));
   logic [63:0] numbers, numbers1;
