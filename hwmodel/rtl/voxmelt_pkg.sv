@@ -14,15 +14,15 @@ package voxmelt_pkg;
     logic        beside_wall;
     logic [7:0]  pattern;
     logic [1:0]  exposed_axes;
-    logic [3:0]  material;
+    logic [3:0]  none;          // always 0
     logic [15:0] heat;
-    logic [15:0] energy;
+    logic [15:0] energy;        // of a solid, which has none: its material
     logic [15:0] amount;
     logic [1:0]  state;
   } cell_t;
   localparam CELL = 67;  // bits of cell_t
 
-  // What memory has of a cell, without materials.
+  // What memory has of a cell.
   typedef struct packed {
     logic [15:0] heat;
     logic [15:0] energy;

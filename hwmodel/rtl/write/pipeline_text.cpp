@@ -122,8 +122,7 @@ class Writer {
         "{0}_cells;\n  logic [{2}:0] {0}_in_runs, {0}_runs;\n  logic [{3}:0] {0}_in_shows, {0}_shows;\n",
         name, 67 * c_.lanes - 1, c_.lanes - 1, 92 * c_.lanes - 1);
     add("  cell_channel #(.P({}), .HOT({}), .ENERGY({}), .AXES({}), .PATTERN({}), .WALL({}), .TOUCHES({}), "
-        ".SET({}), "
-        ".RUN({}), .SHOWS({}), .DEPTH({})) {} (\n",
+        ".SET({}), .RUN({}), .SHOWS({}), .DEPTH({})) {} (\n",
         c_.lanes, hot_, energy_, int{bands.has(Wire::exposed_axes)}, int{bands.has(Wire::pattern)},
         int{bands.has(Wire::beside_wall)}, int{bands.has(Wire::touches)}, int{bands.has(Wire::set)},
         int{bands.has(Wire::in_run)}, int{bands.has(Wire::head)}, depth, name);
