@@ -112,8 +112,7 @@ int explore_one(const ExploreCommand& command) {
   if (!command.out.empty()) out.emplace(command.out);
   scene.begin();
   const explore::Question& question = scene.question();
-  explore::Axes axes = usual_axes(question);
-  keep_only(axes, command.hw_sets);
+  const explore::Axes axes = asked_axes(usual_axes(question), question, command);
   const explore::Swept swept = sweep(question, axes, SweepProgress(common.quiet));
   if (swept.points.empty() && !axes.tile)
     throw UsageError(
@@ -188,6 +187,7 @@ void add_explore(CommandLine& program) {
       .option("--check-steps", options->check_steps,
               "steps for which they are (default: one pass of the design)")
       .within(1u, 10000u);
+  command.flag("--rtl", options->rtl, "only designs that `voxmelt rtl` writes");
   command.option("--out", options->out,
                  "folder for explore.svg, explore.csv (every design) and explore.json");
   command

@@ -29,10 +29,10 @@ std::vector<explore::Axes> axes_of(const std::vector<std::unique_ptr<ExploreScen
     lanes.insert(all.back().lanes.begin(), all.back().lanes.end());
     cascade.insert(all.back().cascade.begin(), all.back().cascade.end());
   }
-  for (explore::Axes& axes : all) {
-    axes.lanes.assign(lanes.begin(), lanes.end());
-    axes.cascade.assign(cascade.begin(), cascade.end());
-    keep_only(axes, command.hw_sets);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    all[s].lanes.assign(lanes.begin(), lanes.end());
+    all[s].cascade.assign(cascade.begin(), cascade.end());
+    all[s] = asked_axes(all[s], scenes[s]->question(), command);
   }
   return all;
 }

@@ -21,12 +21,17 @@ struct ExploreCommand {
   std::string device, memory = "ddr4-2400", out, swept, aim = "sum";
   std::uint32_t steps = 32, from = 0, check_steps = 0;
   std::size_t points = 8;
+  bool rtl = false;  // only what `voxmelt rtl` writes
   std::vector<std::string> device_sets, memory_sets, hw_sets;
 };
 
 // Returns the memory with the numbers of --set; none if it always answers.
 std::optional<hwmodel::memory::Parameters> find_memory(const std::string& name,
                                                        const std::vector<std::string>& sets);
+
+// Returns the axes with what --set and --rtl leave of them. Throws UsageError or scene::InputError.
+hwmodel::explore::Axes asked_axes(hwmodel::explore::Axes axes, const hwmodel::explore::Question& question,
+                                  const ExploreCommand& command);
 
 // Is a scene that has run to the step from which hardware is weighed. It stays where it is, because its
 // question points into it.

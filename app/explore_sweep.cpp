@@ -69,8 +69,7 @@ Row row_at(const ExploreScene& scene, const ExploreCommand& asked, const explore
   explore::Question question = scene.question();
   question.device = explore::load_device(command.device, command.device_sets);
   question.memory = find_memory(command.memory, command.memory_sets);
-  explore::Axes axes = usual_axes(question);
-  keep_only(axes, command.hw_sets);
+  explore::Axes axes = asked_axes(usual_axes(question), question, command);
   axes.clock_mhz = {axes.clock_mhz.back()};
   const explore::Swept swept = sweep(question, axes, stop_if_interrupted);
   Row row{value, {}, {}, {}, question.memory ? question.memory->peak() : 0};

@@ -24,6 +24,7 @@ struct Widths {
 };
 struct MemoryShape {
   int bits = 0, words = 0;
+  int luts = 0;  // that it takes, if it is made of them
 };
 // Counts logic beside memories and products: for a lane of a stage, for a unit, or for a channel.
 struct LogicCost {
@@ -38,8 +39,8 @@ struct StageCost {
 struct Family {
   std::string name, title;
   int bram_parts = 1;  // parts of a block of BRAM; the shapes are those of one part
-  std::vector<MemoryShape> bram, uram;
-  int lutram_words = 1, lutram_bits = 1, lutram_luts = 1, mux_ways = 2, deepest_lutram = 1;
+  std::vector<MemoryShape> bram, uram, lutram;
+  int mux_ways = 2, deepest_lutram = 1;
   int register_words = 1;
   Widths product;     // signed factors of a DSP
   LogicCost control;  // what a stage has but once, whatever its lanes

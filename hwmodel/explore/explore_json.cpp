@@ -36,13 +36,13 @@ json shapes_json(const std::vector<MemoryShape>& shapes) {
 }
 
 json family_json(const Family& f) {
+  json lutram = json::array();
+  for (const MemoryShape& shape : f.lutram) lutram.push_back({shape.bits, shape.words, shape.luts});
   json result{{"name", f.name},
               {"bram_parts", f.bram_parts},
               {"bram_shapes", shapes_json(f.bram)},
               {"uram_shapes", shapes_json(f.uram)},
-              {"lutram_words", f.lutram_words},
-              {"lutram_bits", f.lutram_bits},
-              {"lutram_luts", f.lutram_luts},
+              {"lutram_shapes", lutram},
               {"mux_ways", f.mux_ways},
               {"deepest_lutram", f.deepest_lutram},
               {"register_words", f.register_words},

@@ -17,11 +17,11 @@ constexpr int kWidest = 1 << 20;
 
 int whole(scene::Reader& from, const char* key, int low, int high) { return from.integer(key, low, high); }
 
-std::vector<std::array<int, 2>> pairs(scene::Reader& from, const char* key) {
-  std::vector<std::array<int, 2>> found;
-  const std::vector<double> numbers = from.rows(key, 2, 0, 64, scene::at_least(1).at_most(kWidest));
-  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
-    found.push_back({static_cast<int>(numbers[i]), static_cast<int>(numbers[i + 1])});
+template <std::size_t Width>
+std::vector<std::array<int, Width>> rows(scene::Reader& from, const char* key, std::size_t fewest = 0) {
+  const std::vector<double> numbers = from.rows(key, Width, fewest, 64, scene::at_least(1).at_most(kWidest));
+  std::vector<std::array<int, Width>> found(numbers.size() / Width);
+  for (std::size_t i = 0; i < numbers.size(); ++i) found[i / Width][i % Width] = static_cast<int>(numbers[i]);
   return found;
 }
 
@@ -40,14 +40,12 @@ LogicCost logic_of(scene::Reader& root, const char* key, const Given& given) {
 }
 
 void read_memories(scene::Reader& from, Family& f) {
-  from.knows(
-      std::array{"bram_parts", "bram_shapes", "uram_shapes", "lutram_words", "lutram_bits", "lutram_luts"});
+  from.knows(std::array{"bram_parts", "bram_shapes", "uram_shapes", "lutram_shapes"});
   f.bram_parts = whole(from, "bram_parts", 1, 16);
-  for (const auto& [bits, words] : pairs(from, "bram_shapes")) f.bram.push_back({bits, words});
-  for (const auto& [bits, words] : pairs(from, "uram_shapes")) f.uram.push_back({bits, words});
-  f.lutram_words = whole(from, "lutram_words", 1, 4096);
-  f.lutram_bits = whole(from, "lutram_bits", 1, 4096);
-  f.lutram_luts = whole(from, "lutram_luts", 1, 4096);
+  for (const auto& [bits, words] : rows<2>(from, "bram_shapes")) f.bram.push_back({bits, words});
+  for (const auto& [bits, words] : rows<2>(from, "uram_shapes")) f.uram.push_back({bits, words});
+  for (const auto& [bits, words, luts] : rows<3>(from, "lutram_shapes", 1))
+    f.lutram.push_back({bits, words, luts});
   f.mux_ways = whole(from, "mux_ways", 2, 64);
   f.deepest_lutram = whole(from, "deepest_lutram", 1, kWidest);
   f.register_words = whole(from, "register_words", 1, 64);
@@ -62,7 +60,8 @@ void read_stages(scene::Reader& root, Family& f, const Given& given) {
     scene::Reader table = table_of(stages, std::string(name_of(kind)));
     StageCost& cost = f.stages[kind];
     cost.lane = logic(table, given);
-    for (const auto& [wide, narrow] : pairs(table, "multipliers")) cost.multipliers.push_back({wide, narrow});
+    for (const auto& [wide, narrow] : rows<2>(table, "multipliers"))
+      cost.multipliers.push_back({wide, narrow});
     if (table.has("dsp")) {
       const std::array<double, 2> synthesised = table.vector<2>("dsp", scene::at_least(1).at_most(kWidest));
       cost.products = static_cast<int>(synthesised[0]);

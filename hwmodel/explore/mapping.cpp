@@ -22,8 +22,13 @@ std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, 
 }  // namespace
 
 std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {
-  const std::int64_t deep = up(words, f.lutram_words);
-  return deep * up(bits, f.lutram_bits) * f.lutram_luts + bits * up(deep - 1, f.mux_ways - 1);
+  std::int64_t fewest = -1;
+  for (const MemoryShape& shape : f.lutram) {
+    const std::int64_t deep = up(words, shape.words);
+    const std::int64_t luts = deep * up(bits, shape.bits) * shape.luts + bits * up(deep - 1, f.mux_ways - 1);
+    if (fewest < 0 || luts < fewest) fewest = luts;
+  }
+  return fewest;
 }
 
 std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {

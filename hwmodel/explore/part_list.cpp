@@ -21,6 +21,13 @@ bool is_registers(const BufferCost& buffer, const Family& family) {
   return buffer.words <= family.register_words;
 }
 
+// A lane was synthesised with so many products. With others it takes in proportion: a share for each, and one
+// more.
+std::int64_t of_lanes(std::int64_t lane, std::int64_t lanes, const Units& units, const StageCost& cost) {
+  if (cost.products == 0) return lanes * lane;
+  return lanes * lane * (1 + units.multipliers) / (1 + cost.products);
+}
+
 void add_stage(PartList& list, const StagePart& part, const Family& family) {
   const StageCost& cost = family.stages.at(part.kind);
   const std::int64_t products = std::int64_t{list.design.shape.lanes} * part.units.multipliers;
@@ -62,13 +69,13 @@ Logic logic_of(const PartList& parts, const Family& family) {
   const std::int64_t lanes = parts.design.shape.lanes;
   Logic all{0, parts.register_bits};
   for (const StagePart& part : parts.stages) {
-    const LogicCost& lane = family.stages.at(part.kind).lane;
+    const StageCost& cost = family.stages.at(part.kind);
     const std::int64_t dividers = part.units.dividers * lanes,
                        blocks = part.units.random_blocks * blocks_of_token(parts.design.shape.lanes);
-    all.lut += family.control.lut.value + lanes * lane.lut.value + dividers * family.divider.lut.value +
-               blocks * family.random_block.lut.value;
-    all.ff += family.control.ff.value + lanes * lane.ff.value + dividers * family.divider.ff.value +
-              blocks * family.random_block.ff.value;
+    all.lut += family.control.lut.value + of_lanes(cost.lane.lut.value, lanes, part.units, cost) +
+               dividers * family.divider.lut.value + blocks * family.random_block.lut.value;
+    all.ff += family.control.ff.value + of_lanes(cost.lane.ff.value, lanes, part.units, cost) +
+              dividers * family.divider.ff.value + blocks * family.random_block.ff.value;
   }
   return all;
 }

@@ -315,7 +315,9 @@ def fixed_of(report, parts, hw):
     for stage in parts["stages"]:
         c, blocks = f["stages"][stage["name"]], stage["random_blocks_per_8_lanes"] * blocks_of(p)
         for name in ("lut", "ff"):
-            cost = p * (c[name] + stage["dividers"] * f["divider"][name]) + blocks * f["random_block"][name] + f["control"][name]
+            synthesised = c["dsp"][0]
+            lanes = p * c[name] * (1 + stage["multipliers"]) // (1 + synthesised) if synthesised else p * c[name]
+            cost = lanes + p * stage["dividers"] * f["divider"][name] + blocks * f["random_block"][name] + f["control"][name]
             lut, ff = (lut + t * cost, ff) if name == "lut" else (lut, ff + t * cost)
         a, b = f["product"]
         products, dsps = c["dsp"]
@@ -347,8 +349,8 @@ def blocks_of(lanes):
 
 
 def lutram_of(f, words, bits):
-    deep = ceil(words / f["lutram_words"])
-    return deep * ceil(bits / f["lutram_bits"]) * f["lutram_luts"] + bits * ceil((deep - 1) / (f["mux_ways"] - 1))
+    return min(ceil(words / w) * ceil(bits / b) * luts + bits * ceil((ceil(words / w) - 1) / (f["mux_ways"] - 1))
+               for b, w, luts in f["lutram_shapes"])
 
 
 def ways(f, words, bits, times_):

@@ -207,8 +207,32 @@ class Explore(unittest.TestCase):
         self.assertEqual({row["tile"] for row in rows}, {"128"})
         self.assertEqual(one["axes"]["tile"], 128)
 
+    def test_only_what_is_written(self):
+        """With --rtl the answer is a pipeline that `voxmelt rtl` writes, and no other one is tried."""
+        asked = ["--device", "zu7ev", "--memory", "none", "--points", 0, "--set", "hw.fifo_depth=2"]
+        every, rows, _ = self.explore(self.scene, *asked)
+        self.assertIn("6", {row["lanes"] for row in rows})
+        report, rows, _ = self.explore(self.scene, *asked, "--rtl")
+        self.assertEqual({row["lanes"] for row in rows}, {"1", "2", "4", "8", "16"})
+        self.assertEqual({row["cascade"] for row in rows}, {str(n) for n in range(1, 17)})
+        self.assertEqual({row["tile"] for row in rows}, {"0"})
+        self.assertLessEqual(report["best"]["cell_steps_per_second"], every["best"]["cell_steps_per_second"])
+        self.compare_best_of(report, [row for row in rows if row["fits"] == "1"])
+        sets = [word for key in ("lanes", "cascade", "fifo_depth") for word in ("--set", f"hw.{key}={report['best']['hw'][key]}")]
+        written = voxmelt("rtl", self.scene, *sets, "--out", "rtl", cwd=self.folder, timeout=400)
+        self.assertEqual(written.returncode, 0, written.stderr)
+        falls = write(self.folder, self.scene.read_text().replace("[flow]", "[pieces]\n[flow]"), "falls.toml")
+        _, rows, _ = self.explore(falls, *asked, "--rtl")
+        self.assertEqual({row["cascade"] for row in rows}, {"1"})
+
+    def compare_best_of(self, report, rows):
+        self.assertEqual(report["best"]["cell_steps_per_second"], max(int(row["cell_steps_per_second"]) for row in rows))
+
     def test_bad_usage(self):
         for arguments, message in (
+                (["--device", "zu7ev", "--rtl", "--set", "hw.lanes=3"], "writes no such pipeline: hw.lanes is 1, 2, 4, 8 or 16"),
+                (["--device", "zu7ev", "--rtl", "--set", "hw.tile=64"], "writes no such pipeline: it writes no tiles"),
+                (["--device", "zu7ev", "--rtl", "--set", "device.chain=2"], "which `voxmelt rtl` does not write"),
                 (["--device", "zu7ev", "--set", "hw.tile=1", "--set", "hw.lanes=2"], "hw.tile = 1: no lanes and steps"),
                 (["--device", "zu9eg"], 'no device "zu9eg"; there are alveo-u280, artix-200t, ecp5-85f, zu7ev'),
                 (["--device", "zu7ev", "--memory", "sram"], "there are none, ddr4-2400, ddr5-4800, gddr6, hbm2-stack, hbm2, hbm3, lpddr4-3200"),

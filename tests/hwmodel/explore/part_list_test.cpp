@@ -33,6 +33,15 @@ TEST(Explore, MemoriesTakeTheShapeThatFits) {
   EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
 }
 
+TEST(Explore, ShallowMemoriesOfLutsAreWider) {
+  // 2 words of 240 bits: 18 of 14 bits in 8 LUTs (UltraScale+), or 40 of 6 in 4 (7 series). ECP5 has 60 of 4.
+  EXPECT_EQ(luts_to_hold(2, 240, load_device("zu7ev", {}).family), 18 * 8);
+  EXPECT_EQ(luts_to_hold(2, 240, load_device("artix-200t", {}).family), 40 * 4);
+  EXPECT_EQ(luts_to_hold(2, 240, load_device("ecp5-85f", {}).family), 60 * 6);
+  // 33 words of 14 bits: two of 32 words and a choice of two, 16 + 14, or two of 64 words and 7 bits, 16.
+  EXPECT_EQ(luts_to_hold(33, 14, load_device("zu7ev", {}).family), 16);
+}
+
 TEST(Explore, ProductsAreCutIntoPieces) {
   const Widths ultrascale{27, 18}, ecp5{18, 18};
   EXPECT_EQ(dsps_of({18, 17}, ultrascale), 1);
@@ -116,6 +125,34 @@ TEST(Explore, MemoriesBeginAboveTheWordsOfRegisters) {
       if (one.words <= largest.words) bits += one.total();
     EXPECT_EQ(part_list(design, family).register_bits, bits) << largest.name;
   }
+}
+
+// A lane with all products costs what was synthesised. Without any, source costs a seventh: it has six.
+TEST(Explore, LanesCostInProportionToProducts) {
+  Family family = load_device("zu7ev", {"family.control.lut=0", "family.control.ff=0"}).family;
+  for (auto& [kind, cost] : family.stages)
+    if (kind != StageKind::source) cost.lane.lut.value = cost.lane.ff.value = 0;
+  ASSERT_EQ(family.stages.at(StageKind::source).products, 6);
+  family.stages.at(StageKind::source).lane.lut.value = 700;
+  family.stages.at(StageKind::source).lane.ff.value = 70;
+  family.divider.lut.value = family.divider.ff.value = family.random_block.lut.value = 0;
+  family.random_block.ff.value = 0;
+  const auto logic = [&](int vents, int drains) {
+    Design design{{}, {{60, 40, 30}, 4}};
+    design.parameters.flow.law = rule::Law::paper;
+    design.parameters.heat.enabled = true;
+    design.parameters.vents.resize(vents);
+    design.parameters.drains.resize(drains);
+    PartList parts = part_list(design, family);
+    parts.register_bits = 0;
+    return logic_of(parts, family);
+  };
+  EXPECT_EQ(logic(0, 0).lut, 4 * 100);
+  EXPECT_EQ(logic(0, 0).ff, 4 * 10);
+  EXPECT_EQ(logic(0, 1).lut, 4 * 200);
+  EXPECT_EQ(logic(1, 0).lut, 4 * 600);  // five products
+  EXPECT_EQ(logic(1, 1).lut, 4 * 700);
+  EXPECT_EQ(logic(2, 2).lut, 4 * 1300);
 }
 
 TEST(Explore, CopiesOfAStageHoldTheSame) {
