@@ -141,6 +141,7 @@ TEST(Explore, LanesCostInProportionToProducts) {
     Design design{{}, {{60, 40, 30}, 4}};
     design.parameters.flow.law = rule::Law::paper;
     design.parameters.heat.enabled = true;
+    design.parameters.open_border = true;
     design.parameters.vents.resize(vents);
     design.parameters.drains.resize(drains);
     PartList parts = part_list(design, family);

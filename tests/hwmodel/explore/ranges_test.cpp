@@ -144,10 +144,10 @@ TEST(Ranges, EachDesignIsAsFullAsItIsAlone) {
   EXPECT_EQ(seen.size(), swept.points.size()) << "no two take the same";
 }
 
-// Channels of two and of four tokens are as fast, and those of four take more.
+// Channels of 2 and of 64 tokens are as fast, and those of 64 take more.
 TEST(Ranges, TheLeastFullOfEqualsIsTold) {
   Small small({});
-  small.axes.fifo_depth = {4, 2};
+  small.axes.fifo_depth = {64, 2};
   const Swept swept = small.swept();
   const Point &deep = swept.points.at(2), &shallow = swept.points.at(3);
   ASSERT_EQ(deep.speed, shallow.speed);

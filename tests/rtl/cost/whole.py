@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Is a design as large as `explore` says? It writes the pipeline, synthesises it whole, and counts.
 
-  tests/rtl/cost/whole.py cello --device zu7ev --from 1048      the design of the answer, of one time step
+  tests/rtl/cost/whole.py cello --device zu7ev --from 1048      the answer of --rtl, of one time step
   tests/rtl/cost/whole.py cello --device zu7ev --lanes 4        this number of lanes
   tests/rtl/cost/whole.py ... --docs FILE                       puts its row into the table of a page
 
@@ -34,7 +34,7 @@ MEMORY_LUTS = {"7series": {r"RAM32M|RAM64M": 4, r"RAM\d+X1D": 2}, "ecp5": {}}
 def explored(scene, device, settings, first):
     """The report of `voxmelt explore` by closed forms alone."""
     with tempfile.TemporaryDirectory() as folder:
-        words = [PROGRAM, "explore", scene, "--device", device, "--memory", "none", "--points", "0", "--from", str(first),
+        words = [PROGRAM, "explore", scene, "--device", device, "--rtl", "--memory", "none", "--points", "0", "--from", str(first),
                  "--out", f"{folder}/out", *(word for one in settings for word in ("--set", one))]
         result = subprocess.run(words, capture_output=True, text=True)
         if result.returncode != 0:
@@ -75,11 +75,11 @@ def main():
     parser.add_argument("--from", dest="first", type=int, default=0, help="the step whose state is asked about")
     parser.add_argument("--docs", type=Path, help="a page with a table of such rows: that of the same design is replaced")
     options = parser.parse_args()
-    asked = ["hw.coded=0", "hw.tile=0"] + ([f"hw.lanes={options.lanes}"] if options.lanes else [])
+    asked = ["hw.coded=0"] + ([f"hw.lanes={options.lanes}"] if options.lanes else [])
     hw = explored(options.scene, options.device, asked, options.first)["best"]["hw"]
     fixed = [f"hw.{key}={hw[key]}" for key in ("lanes", "substeps", "fifo_depth", "overlap", "clock_mhz")]
     report = explored(options.scene, options.device,
-                      asked[:2] + fixed + ["hw.cascade=1", "device.uram=0", "device.lutram=1000000", "family.memory.deepest_lutram=32"] + OUTSIDE,
+                      asked[:1] + fixed + ["hw.cascade=1", "device.uram=0", "device.lutram=1000000", "family.memory.deepest_lutram=32"] + OUTSIDE,
                       options.first)
     family = "ecp5" if report["family"]["name"] == "ecp5" else "7series"
     line = row(options.scene, options.device, hw, report["best"]["takes"], found(options.scene, family, hw, options.first))
