@@ -11,7 +11,7 @@ module line_memory #(
     output logic [WIDTH-1:0] q
 );
   localparam ADDRESS = DEPTH > 1 ? $clog2(DEPTH) : 1;
-  logic [WIDTH-1:0] words[0:2**ADDRESS-1];  // else Yosys joins blocks of several depths by choices
+  logic [WIDTH-1:0] words[0:DEPTH-1];
   logic [ADDRESS-1:0] at;
   wire [23:0] last = delay - 24'd2;
 

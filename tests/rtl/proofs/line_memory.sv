@@ -14,7 +14,7 @@ module proof (
   line_memory dut (.clk(clk), .rst(rst), .en(en), .delay(delay_), .d(d), .q(q));
   past #(.WIDTH(24), .N(1)) stays (.clk(clk), .d(delay_), .q(delay1));
   always_comb begin
-    assume (delay_ >= 24'd2 && delay_ <= 24'd5);
+    assume (delay_ >= 24'd2 && delay_ <= 24'd4);
     if (age != 8'd0) assume (delay_ == delay1);
   end
   always_ff @(posedge clk)
