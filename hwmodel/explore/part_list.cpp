@@ -92,7 +92,7 @@ PartList part_list(const Design& design, const Family& family) {
       energy_of_token(StageKind::writer, {}, writer_buffers(layout), design.shape.lanes, family).all();
   for (const auto& stage : make_step(list.design)) {
     list.stages.push_back(
-        {stage->kind(), stage->lag(), stage->output_bits(), stage->buffers(), stage->units()});
+        {stage->kind(), stage->lag(), stage->output_bits(), stage->circuit_buffers(), stage->units()});
     StagePart& part = list.stages.back();
     part.token_energy =
         energy_of_token(part.kind, part.units, part.buffers, design.shape.lanes, family).all();

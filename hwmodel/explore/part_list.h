@@ -1,5 +1,5 @@
-// A part list tells what one time step of the cascade is made of, for a number of lanes. It has the stages'
-// memories and units as the model reports them, and their cost in the parts of a family.
+// A part list tells what one time step of the cascade is made of, for a number of lanes. It has the memories
+// of the stages' circuits and the units that the model reports, and their cost in the parts of a family.
 #pragma once
 
 #include <cstdint>

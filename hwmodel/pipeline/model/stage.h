@@ -187,6 +187,8 @@ class Stage {
     return bits;
   }
   virtual std::vector<BufferCost> buffers() const { return {}; }
+  // Returns the memories of its circuit (hwmodel/rtl), where they are cut in another way.
+  virtual std::vector<BufferCost> circuit_buffers() const { return buffers(); }
   virtual Units units() const { return {}; }
 
  protected:

@@ -54,6 +54,25 @@ class ViscousSpread final : public Stage {
     return costs;
   }
 
+  // In the circuit a sum of what a cell got is known 25 registers after its word, so it has a memory of its
+  // own. A word is what a run shows, and with heat that of the cell. The bits are those of spread_stage.sv.
+  std::vector<BufferCost> circuit_buffers() const override {
+    const bool warm = hot_ || design().of_materials();
+    const int heat = warm ? 16 : 0, word = 92 + heat, done = 20 + heat, sum = warm ? 48 : 16;
+    const std::int64_t column = shape().column(), between = shape().plane() - column;
+    std::vector<BufferCost> costs{{"column memory", column, lanes(), word},
+                                  {"column memory, sums", column, lanes(), sum},
+                                  {"column memory, done", column + 22, lanes(), done},
+                                  {"column memory, last lane", column, 1, word},
+                                  {"column memory, sums of the last lane", column, lanes(), sum},
+                                  {"floor memory", shape().blocks(), lanes(), RunPace::kBits}};
+    if (between > 0) {
+      costs.push_back({"plane memory", between, lanes(), word});
+      costs.push_back({"plane memory, sums", between, lanes(), sum});
+    }
+    return costs;
+  }
+
   // A pair multiplies (g + mobility) a, slope x drop and c drive, and with heat f h. The slope's factor is
   // read from a table of 512 words, by squares from tables of 33. An axis adds up to four eighths of it. With
   // heat, a cell multiplies A h and the mixture's rounding, and two multipliers serve the bed of a solid.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -154,6 +155,30 @@ TEST(Explore, LanesCostInProportionToProducts) {
   EXPECT_EQ(logic(1, 0).lut, 4 * 600);  // five products
   EXPECT_EQ(logic(1, 1).lut, 4 * 700);
   EXPECT_EQ(logic(2, 2).lut, 4 * 1300);
+}
+
+// Spread's circuit has words of 108 bits with heat, 92 without, and apart from them what cells got (48 and
+// 16), as hwmodel/rtl/spread_stage.sv says. Columns of this grid have 40 cells, and its planes 15 blocks.
+TEST(Explore, SpreadHoldsWhatItsCircuitHolds) {
+  const Family family = load_device("zu7ev", {}).family;
+  for (const bool hot : {true, false}) {
+    Design design{{}, {{60, 40, 30}, 4}};
+    design.parameters.flow.law = rule::Law::viscous;
+    design.parameters.heat.enabled = hot;
+    std::multiset<std::vector<std::int64_t>> held;  // words, and bits of all lanes
+    for (const StagePart& part : part_list(design, family).stages)
+      if (part.kind == StageKind::viscous_spread)
+        for (const BufferCost& buffer : part.buffers) held.insert({buffer.words, buffer.lanes * buffer.bits});
+    const std::int64_t word = hot ? 108 : 92, done = hot ? 36 : 20, sum = hot ? 48 : 16;
+    EXPECT_EQ(held, (std::multiset<std::vector<std::int64_t>>{{40, 4 * word},
+                                                              {40, 4 * sum},
+                                                              {40, word},
+                                                              {40, 4 * sum},
+                                                              {62, 4 * done},
+                                                              {560, 4 * word},
+                                                              {560, 4 * sum},
+                                                              {15, 4 * 62}}));
+  }
 }
 
 TEST(Explore, CopiesOfAStageHoldTheSame) {
