@@ -67,16 +67,21 @@ json family_json(const Family& f) {
   return result;
 }
 
+json buffers_json(const std::vector<BufferCost>& buffers) {
+  json result = json::array();
+  for (const BufferCost& b : buffers)
+    result.push_back({{"name", b.name}, {"words", b.words}, {"lanes", b.lanes}, {"bits", b.bits}});
+  return result;
+}
+
 json parts_json(const PartList& parts) {
   json stages = json::array();
   for (const StagePart& stage : parts.stages) {
-    json buffers = json::array();
-    for (const BufferCost& b : stage.buffers)
-      buffers.push_back({{"name", b.name}, {"words", b.words}, {"lanes", b.lanes}, {"bits", b.bits}});
     stages.push_back({{"name", name_of(stage.kind)},
                       {"lag", stage.lag},
                       {"output_bits", stage.output_bits},
-                      {"buffers", buffers},
+                      {"buffers", buffers_json(stage.buffers)},
+                      {"model_buffers", buffers_json(stage.model_buffers)},
                       {"multipliers", stage.units.multipliers},
                       {"dividers", stage.units.dividers},
                       {"random_blocks_per_8_lanes", stage.units.random_blocks}});

@@ -91,11 +91,11 @@ PartList part_list(const Design& design, const Family& family) {
       energy_of_token(StageKind::reader, {}, reader_buffers(layout), design.shape.lanes, family).all() +
       energy_of_token(StageKind::writer, {}, writer_buffers(layout), design.shape.lanes, family).all();
   for (const auto& stage : make_step(list.design)) {
-    list.stages.push_back(
-        {stage->kind(), stage->lag(), stage->output_bits(), stage->circuit_buffers(), stage->units()});
+    list.stages.push_back({stage->kind(), stage->lag(), stage->output_bits(), stage->circuit_buffers(),
+                           stage->buffers(), stage->units()});
     StagePart& part = list.stages.back();
     part.token_energy =
-        energy_of_token(part.kind, part.units, part.buffers, design.shape.lanes, family).all();
+        energy_of_token(part.kind, part.units, part.model_buffers, design.shape.lanes, family).all();
     add_stage(list, part, family);
   }
   add_memories(list, family);

@@ -16,8 +16,9 @@ namespace voxmelt::hwmodel::explore {
 struct StagePart {
   StageKind kind = StageKind::reader;
   std::int64_t lag = 0;
-  int output_bits = 0;  // bits of a lane
-  std::vector<BufferCost> buffers;
+  int output_bits = 0;                    // bits of a lane
+  std::vector<BufferCost> buffers;        // of its circuit
+  std::vector<BufferCost> model_buffers;  // those whose accesses the simulation counts
   Units units;
   double token_energy = 0;  // picojoules of its operations
 };

@@ -26,11 +26,11 @@ module stage_control (
 );
   voxmelt_pkg::place_t at;
   logic all_came, draining, two;
+  logic gives;  // `fill` is `lag`: a register, since all of the stage waits for `move`
   logic [31:0] step_now, step_last;
 
   wire next = all_came & follows & ~draining;
   assign here = ~all_came | next;
-  wire gives = fill == lag;
   assign in_ready = here & (~gives | out_ready) & ~hold;
   assign out_valid = gives & (~here | in_valid) & ~hold;
   assign move = (~here | in_valid) & (~gives | out_ready) & ~hold;
@@ -55,12 +55,14 @@ module stage_control (
       all_came <= 1'b0;
       draining <= 1'b0;
       two <= 1'b0;
+      gives <= 1'b0;
       fill <= '0;
     end else if (move) begin
       at <= drained ? '0 : after_came;
       all_came <= ~drained & (here ? ends : all_came);
       draining <= ~drained & ~here;
       two <= overlaps & ~gone;
+      gives <= ~drained & (gives | (fill == lag - 24'd1));
       if (drained) fill <= '0;
       else if (~gives) fill <= fill + 24'd1;
       if (gives) left <= after_left;

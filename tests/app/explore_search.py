@@ -287,7 +287,7 @@ def token_energy(report, parts, stage):
                ] if cost["multipliers"] else []
     products = p * sum(3.1 * a * b / 1024 for a, b in factors)
     moved = sum(2 * 10 / 64 * b["lanes"] * b["bits"] * (b["words"] * b["lanes"] * b["bits"] / 65536) ** .5
-                for b in stage["buffers"])
+                for b in stage["model_buffers"])
     return added / 320 + products + moved
 
 
