@@ -107,6 +107,9 @@ void print_device_case(const measure::DeviceMachine& machine, const measure::Dev
        {std::pair{"state there", one.upload}, {"masks back", one.masks}, {"state back", one.download}})
     print("  {:<14} {:>8} ms  {:>8} MB\n", what, milliseconds(transfer.seconds),
           three_digits(static_cast<double>(transfer.bytes) / 1e6));
+  if (one.rays > 0)
+    print("  {:<14} {:>8} ms  for {} rays, where it is a step of visibility\n", "visibility",
+          milliseconds(one.visibility), one.rays);
   for (const measure::KernelTime& kernel : one.kernels)
     print("  {:<14} {:>8} ms  in {} calls\n", kernel.name, milliseconds(kernel.seconds),
           three_digits(kernel.calls));

@@ -58,12 +58,12 @@ json seconds_json(const state::Seconds& steps, const RunSeconds& run) {
   return result;
 }
 
-// Names the provider that followed the rays, and their number. The plain walk does not count rays.
+// Names who followed the rays, and their number. The plain walk does not count rays.
 json visibility_json(const Common& common, const run::Simulation& simulation) {
   const VisibilityChoice choice = choose_visibility(common.visibility);
   const visibility::Casts casts = simulation.casts();
   return {{"provider", simulation.provider().name()},
-          {"reason", choice.reason},
+          {"reason", simulation.device_follows_rays() ? "the device has the masks" : choice.reason},
           {"rays", casts.asked},
           {"rays_cast", casts.cast}};
 }

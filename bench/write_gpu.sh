@@ -31,8 +31,8 @@ $(table devicesteps)
 
 "Of the copy" is what the definition must read and write of active cells, beside what the device
 copies in that time. The column "of the step" says what the launches cost at least. Kernels are
-timed one by one, so each has a launch more than in a row. "In a run" has visibility, which is the
-host's work, what comes and goes for it, and a share of one fetch of the state at the end.
+timed one by one, so each has a launch more than in a row. "Visibility" is what a step of visibility
+takes beside that. "In a run" has it, and a share of one fetch of the state at the end.
 
 What the host sends or fetches, if it does:
 

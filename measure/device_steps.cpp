@@ -84,9 +84,15 @@ class OnDevice {
     stepper_.run_step(lead_.step(), lead_.simulation().irradiance());
     device_->wait();
   }
+  bool radiates() const { return workload_.parameters.heat.radiates(); }
+  void find_irradiance() {
+    stepper_.find_irradiance(lead_.step());
+    device_->wait();
+  }
+  std::int64_t rays() { return stepper_.count_rays().rays; }
   void timed_steps() {
     for (int i = 1; i <= workload_.steps; ++i) {
-      stepper_.tell_irradiance({});  // visibility is the host's work, so the light stays as it was
+      stepper_.tell_irradiance({});  // visibility is timed by itself, so the light stays as it was
       stepper_.run_step(lead_.step() + static_cast<std::uint32_t>(i), lead_.simulation().irradiance());
     }
     device_->wait();
@@ -126,9 +132,10 @@ double step_of_a_run(const Workload& workload, const Candidate& candidate, std::
 void time_rounds(OnDevice& run, const Workload& workload, std::uint64_t expected, const Rounds& rounds,
                  DeviceCase& one) {
   const auto wall = [](const auto& work) { return seconds_for(Clock::wall, work); };
-  Least step, beside, there, masks, back;
+  Least step, beside, there, light, masks, back;
   for (const RoundClock clock(rounds); clock.more(one.rounds); ++one.rounds) {
     there.add(wall([&] { run.upload(); }));
+    if (run.radiates()) light.add(wall([&] { run.find_irradiance(); }));
     run.first_step();
     step.add(wall([&] { run.timed_steps(); }) / workload.steps);
     masks.add(wall([&] { run.download_masks(); }));
@@ -137,6 +144,7 @@ void time_rounds(OnDevice& run, const Workload& workload, std::uint64_t expected
   }
   one.seconds = step.value();
   one.processor_seconds = beside.value();
+  if (run.radiates()) one.visibility = light.value();
   one.upload.seconds = there.value();
   one.masks.seconds = masks.value();
   one.download.seconds = back.value();
@@ -149,6 +157,11 @@ void count_bytes(OnDevice& run, DeviceCase& one) {
     return (run.device().*count)();
   };
   one.upload.bytes = bytes(&WatchedDevice::sent, [&] { run.upload(); });
+  if (run.radiates()) {
+    const std::int64_t before = run.rays();
+    run.find_irradiance();
+    one.rays = run.rays() - before;
+  }
   run.first_step();
   one.masks.bytes = bytes(&WatchedDevice::fetched, [&] { run.download_masks(); });
   one.download.bytes = bytes(&WatchedDevice::fetched, [&] { run.download(); });

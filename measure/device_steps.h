@@ -52,6 +52,8 @@ struct DeviceCase {
   double copied_per_second = 0;     // what the device can copy: DeviceMachine::copy
   double launch = 0;                // DeviceMachine::launch
   double as_run = 0;                // a step of a run: with visibility, and what the host asks for
+  double visibility = 0;            // what a step of visibility takes beside that, if the scene has radiation
+  std::int64_t rays = 0;            // that it casts
   Transfer upload, masks, download;
   // The same step on a processor, without visibility.
   Candidate processor;

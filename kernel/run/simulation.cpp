@@ -70,7 +70,12 @@ void Simulation::change_sources(Sources sources) {
 // it has not told.
 void Simulation::change_parameters(rule::Parameters parameters) {
   fetch();
+  fetch_light();
   tell_changes();
+  const step::RayCounts counts = counts_of_device();
+  irradiance_capped_ += counts.capped;
+  casts_before_ += {counts.rays, counts.rays};
+  device_has_light_ = false;
   parameters_ = std::move(parameters);
   parameters_.heat.ray_seed = parameters_.seed;
   make_stepper();
@@ -114,7 +119,7 @@ void Simulation::resume(state::MidRun run) {
 }
 
 state::MidRun Simulation::mid_run() const {
-  return {steps_done_, ledger(), {}, irradiance_capped_, casts().asked, casts().cast, seconds_};
+  return {steps_done_, ledger(), {}, irradiance_capped(), casts().asked, casts().cast, seconds_};
 }
 
 void Simulation::begin_step() {
@@ -156,9 +161,26 @@ bool Simulation::let_pieces_fall_for_device() {
   return true;
 }
 
+// Every provider gives the same bits. So does the walk of a device, and it stands for the usual one. If a
+// user names another one, that one has its way.
+bool Simulation::device_follows_rays() const {
+  return device_ != nullptr && provider_->name() == visibility::kUsual &&
+         device_->follows_rays(parameters_.heat);
+}
+
+// The provider does not find there what it has written, so it must write all of it the next time.
+void Simulation::fetch_light() const {
+  if (!light_is_old_) return;
+  device_->download_irradiance(irradiance_);
+  provider_->forget_amounts();
+  light_is_old_ = false;
+}
+
 // Masks that a device has sent without the rest of its state count as changed everywhere.
 void Simulation::find_irradiance() {
   const Stopwatch watch(seconds_.visibility);
+  device_has_light_ = light_is_old_ = device_follows_rays();
+  if (device_has_light_) return device_->find_irradiance(step_number());
   // Between two of these steps a cell may melt, and another amount may freeze there.
   if (parameters_.freezes() && parameters_.heat.visibility_every > 1) provider_->forget_amounts();
   if (behind_) {
@@ -208,7 +230,7 @@ void Simulation::tell_changes() const {
 void Simulation::step() {
   begin_step();
   if (device_ != nullptr) {
-    device_->run_step(step_number(), irradiance());
+    device_->run_step(step_number(), device_has_light_ ? nullptr : host_light());
     behind_ = true;
     masks_are_old_ = true;
   } else {

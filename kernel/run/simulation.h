@@ -1,7 +1,7 @@
 // The run loop has the state, visibility, the phases and the books.
 //
 // With a device stepper the state lies in the device's memory. volume(), ledger() and drift() then fetch it,
-// at most once a step. Visibility fetches the two masks that it needs.
+// at most once a step. Visibility fetches the two masks that it needs, or the device follows the rays itself.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +68,10 @@ class Simulation {
 
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
-  const step::Irradiance* irradiance() const { return irradiance_.empty() ? nullptr : &irradiance_; }
-  std::int64_t irradiance_capped() const { return irradiance_capped_; }  // times that a cell was cut
+  const step::Irradiance* irradiance() const { return fetch_light(), host_light(); }
+  std::int64_t irradiance_capped() const {  // times that a cell was cut
+    return irradiance_capped_ + counts_of_device().capped;
+  }
   const state::Volume& volume() const { return fetch(), tell_changes(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
@@ -87,8 +89,11 @@ class Simulation {
   const state::Seconds& seconds() const { return seconds_; }  // with a device stepper, none of a phase
   visibility::Casts casts() const {                           // counts of the whole run
     visibility::Casts all = casts_before_;
-    return all += provider_->casts();
+    all += provider_->casts();
+    const std::int64_t rays = counts_of_device().rays;  // a device follows every ray each time
+    return all += {rays, rays};
   }
+  bool device_follows_rays() const;  // then the provider has nothing to do
   const visibility::Provider& provider() const { return *provider_; }
 
  private:
@@ -99,6 +104,11 @@ class Simulation {
   bool edit(const rule::Region& region, const Edit& by_hand);
   bool let_pieces_fall_for_device();
   void fetch_masks();
+  void fetch_light() const;
+  step::RayCounts counts_of_device() const {
+    return device_ != nullptr ? device_->count_rays() : step::RayCounts{};
+  }
+  const step::Irradiance* host_light() const { return irradiance_.empty() ? nullptr : &irradiance_; }
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
   step::Cadence count_substeps() const;
@@ -122,18 +132,20 @@ class Simulation {
   step::DeviceStepper* device_ = nullptr;  // the stepper, if it is a device stepper
   std::unique_ptr<visibility::Provider> provider_;
   mutable state::Ledger ledger_;
-  mutable bool behind_ = false;  // the device has run on, so volume_ and ledger_ are old
-  bool masks_are_old_ = false;   // so are its masks
-  bool uploaded_ = false;        // the device holds our state
-  mutable bool untold_ = false;  // steps have ended, and volume_.changed does not know of them yet
-  step::Irradiance irradiance_;  // empty without radiation
+  mutable bool behind_ = false;          // the device has run on, so volume_ and ledger_ are old
+  bool masks_are_old_ = false;           // so are its masks
+  bool uploaded_ = false;                // the device holds our state
+  mutable bool untold_ = false;          // steps have ended, and volume_.changed does not know of them yet
+  mutable step::Irradiance irradiance_;  // empty without radiation
+  bool device_has_light_ = false;        // the device found the irradiance of the last step of visibility
+  mutable bool light_is_old_ = false;    // and ours is older
   std::int64_t irradiance_capped_ = 0;
   int threads_;
   std::uint32_t first_step_ = 0, steps_done_ = 0;
   step::Cadence cadence_;
   int substep_ = 0;  // of the next phase
   state::Seconds seconds_;
-  visibility::Casts casts_before_;  // before the run was resumed
+  visibility::Casts casts_before_;  // before the run was resumed, and by devices that it has left
 };
 
 }  // namespace voxmelt::run

@@ -40,16 +40,17 @@ std::string steps_table(const Findings& findings) {
   std::string text =
       begin("devicesteps",
             "| workload | grid | ms a step | Mcells/s, active | of the copy | launches | of the "
-            "step | longest kernels, ms | a processor, ms | times as long | in a run, ms |\n"
-            "|---|---|--:|--:|--:|--:|--:|---|---|--:|--:|");
+            "step | longest kernels, ms | a processor, ms | times as long | visibility, ms | in a run, ms |\n"
+            "|---|---|--:|--:|--:|--:|--:|---|---|--:|--:|--:|");
   for (const DeviceCase& one : findings.device_cases)
-    text += fmt::format("| `{}` | {} x {} x {} | {} | {} | {} % | {} | {} % | {} | {}: {} | {} | {} |\n",
+    text += fmt::format("| `{}` | {} x {} x {} | {} | {} | {} % | {} | {} % | {} | {}: {} | {} | {} | {} |\n",
                         one.workload, one.grid.x, one.grid.y, one.grid.z, milliseconds(one.seconds),
                         three_digits(static_cast<double>(one.active) / one.seconds / 1e6),
                         three_digits(one.percent_of_copy()), three_digits(one.launches),
                         three_digits(one.percent_of_launches()), longest_of(one),
                         one.processor.implementation->name, milliseconds(one.processor_seconds),
-                        three_digits(one.times_processor()), milliseconds(one.as_run));
+                        three_digits(one.times_processor()),
+                        one.rays > 0 ? milliseconds(one.visibility) : "none", milliseconds(one.as_run));
   return text + "\n";
 }
 

@@ -162,6 +162,8 @@ json device_case_json(const DeviceCase& one) {
           {"launches", one.launches},
           {"percent_of_launches", one.percent_of_launches()},
           {"kernels", kernels},
+          {"visibility",
+           one.rays > 0 ? json{{"milliseconds", one.visibility * 1e3}, {"rays", one.rays}} : json(nullptr)},
           {"upload", transfer_json(one.upload)},
           {"masks", transfer_json(one.masks)},
           {"download", transfer_json(one.download)},

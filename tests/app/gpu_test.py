@@ -152,7 +152,9 @@ class Runs(unittest.TestCase):
         cells = row * (y + 1) * (z + 2) + 2 * row + 32
         self.assertEqual(case["masks"]["bytes"], cells)
         self.assertGreater(case["upload"]["bytes"], case["download"]["bytes"] + cells)
-        for line in ("state there", "masks back", "state back", "gravity"):
+        self.assertGreater(case["visibility"]["rays"], 0)
+        self.assertGreater(case["visibility"]["milliseconds"], 0)
+        for line in ("state there", "masks back", "state back", "visibility", "gravity"):
             self.assertRegex(result.stdout, rf"(?m)^  {line} +[0-9.]+ ms")
         with open(self.folder / "out/bench.csv", newline="") as file:
             written, = csv.DictReader(file)

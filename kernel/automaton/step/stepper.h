@@ -76,16 +76,30 @@ class DeviceLost : public DeviceError {
   using DeviceError::DeviceError;
 };
 
+// Counts of a device that follows rays itself, since it was made.
+struct RayCounts {
+  std::int64_t capped = 0;  // times that a cell was cut at the largest irradiance
+  std::int64_t rays = 0;    // that were cast
+};
+
 // Every function may throw DeviceError. Then the host's volume is the one of the last download.
 class DeviceStepper : public Stepper {
  public:
   // Copies a state and its books to the device, in place of its old contents.
   virtual void upload(const state::Volume& volume, const state::Ledger& ledger) = 0;
 
+  // Tells if the device can follow the rays of these sources itself, in the state that it holds
+  // (docs/automaton.md, section 5). Only then are the three functions below called.
+  virtual bool follows_rays(const rule::Heat& /*heat*/) const { return false; }
+  // Computes the irradiance of the step that begins, and keeps it in place of what it had.
+  virtual void find_irradiance(std::uint32_t /*step*/) {}
+  virtual void download_irradiance(Irradiance& /*irradiance*/) {}
+  virtual RayCounts count_rays() { return {}; }
+
   // Runs all phases of step number `step`. If the scene does not say how many sub-steps it has, the device
-  // counts them in its own state (docs/automaton.md, section 10). `irradiance` lies in the host's memory and
-  // is null when the scene has no radiation. Its values change only at steps divisible by
-  // heat.visibility_every.
+  // counts them in its own state (docs/automaton.md, section 10). `irradiance` lies in the host's memory. It
+  // is null when the scene has no radiation, or when the device found the irradiance itself. Its values
+  // change only at steps divisible by heat.visibility_every.
   virtual void run_step(std::uint32_t step, const Irradiance* irradiance) = 0;
 
   // Copies `solid` and `inert` into the volume, which has the grid's size. Visibility needs no more: it reads

@@ -8,6 +8,7 @@
 
 #include "kernel/automaton/rule/materials.h"
 #include "kernel/automaton/rule/random.h"
+#include "kernel/automaton/rule/ray_geometry.h"
 
 namespace voxmelt::gpu {
 namespace {
@@ -16,7 +17,7 @@ using Named = std::pair<std::string_view, std::int64_t>;
 
 // Where each table begins: the same numbers stand in program/constants.cl.
 constexpr std::size_t kMaterialRows = 16, kMaterialRow = 12, kWeights = 208, kPatternTable = 976,
-                      kMobilityTable = 1040, kAirTemperatures = 1072;
+                      kMobilityTable = 1040, kRayKeys = 1072, kAirTemperatures = 1088;
 
 std::vector<Named> of_shape(const Shape& s) {
   return {{"NX", s.grid.x},         {"NY", s.grid.y},        {"NZ", s.grid.z},   {"ROW", s.row},
@@ -80,10 +81,14 @@ std::vector<Named> of_flow(const rule::Parameters& p) {
           {"MOBILITY_RATE", f.mobility_rate}};
 }
 
+std::vector<Named> of_light(const rule::Parameters& p) {
+  return {{"RAY_SIDE", rule::ray_setting({}, p.heat).side}, {"KINDS", source_kinds(p.heat)}};
+}
+
 // The numbers in the order of program/constants.cl. Their names are for a program of one scene.
 std::vector<std::string_view> names() {
   std::vector<std::string_view> all;
-  for (const auto& part : {of_shape(Shape({1, 1, 1})), of_heat({}), of_flow({})})
+  for (const auto& part : {of_shape(Shape({1, 1, 1})), of_heat({}), of_flow({}), of_light({})})
     for (const Named& one : part) all.push_back(one.first);
   return all;
 }
@@ -115,15 +120,25 @@ std::array<std::int32_t, 9> material_row(const rule::Parameters& p, std::size_t 
 
 }  // namespace
 
+std::int32_t source_kinds(const rule::Heat& heat) {
+  std::int32_t kinds = 0;
+  for (const rule::HeatSource& source : heat.sources) kinds |= 1 << rule::index_of(source.kind);
+  return kinds;
+}
+
 Constants constants_of(const rule::Parameters& p, const Shape& shape) {
   Constants constants;
-  for (const auto& part : {of_shape(shape), of_heat(p), of_flow(p)})
+  for (const auto& part : {of_shape(shape), of_heat(p), of_flow(p), of_light(p)})
     for (const Named& one : part) constants.numbers.push_back(one.second);
 
   std::vector<std::int32_t>& t = constants.tables;
   t.resize(kAirTemperatures + static_cast<std::size_t>(shape.grid.y));
   const rule::RoundKeys keys = rule::round_keys(p.seed);
-  for (std::size_t i = 0; i < keys.size(); ++i) t[i] = static_cast<std::int32_t>(keys[i]);
+  const rule::RoundKeys ray_keys = rule::round_keys(p.heat.ray_seed, rule::kRayWord);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    t[i] = static_cast<std::int32_t>(keys[i]);
+    t[kRayKeys + i] = static_cast<std::int32_t>(ray_keys[i]);
+  }
   for (std::size_t m = 0; m < std::max<std::size_t>(1, p.materials.size()); ++m) {
     const auto row = material_row(p, m);
     std::copy(row.begin(), row.end(),

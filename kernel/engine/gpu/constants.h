@@ -17,6 +17,10 @@ struct Constants {
 
 Constants constants_of(const rule::Parameters& parameters, const Shape& shape);
 
+// Returns a bit for each kind of source, by the number of its row in rule::kSourceKinds. program/light.cl
+// numbers them in the same way.
+std::int32_t source_kinds(const rule::Heat& heat);
+
 // Returns the options that make a program for these numbers alone: -D NX=64 and so on.
 std::string specialised_options(const Constants& constants);
 

@@ -40,13 +40,17 @@ enum class Kernel {
   begin_relaxing,
   relax,
   put_light,
+  find_cubes,
+  find_blocks,
+  add_light,
+  share_light,
   copy_words  // for measurements
 };
 inline constexpr const char* kKernelNames[] = {
-    "list_bricks", "find_matter",    "vent",           "drain",     "border",
-    "conduct",     "exchange",       "copy_heat",      "find_cold", "melt",
-    "gravity",     "find_patterns",  "apply_patterns", "settle",    "count_substeps",
-    "spread_runs", "begin_relaxing", "relax",          "put_light", "copy_words"};
+    "list_bricks",    "find_matter", "vent",           "drain",       "border",         "conduct",
+    "exchange",       "copy_heat",   "find_cold",      "melt",        "gravity",        "find_patterns",
+    "apply_patterns", "settle",      "count_substeps", "spread_runs", "begin_relaxing", "relax",
+    "put_light",      "find_cubes",  "find_blocks",    "add_light",   "share_light",    "copy_words"};
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <initializer_list>
 #include <map>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -175,7 +174,7 @@ class OpenClQueue final : public Device {
   }
 
   void build(const std::string& options) {
-    const std::string_view text = program_text();
+    const std::string text = program_text();
     const char* begin = text.data();
     const std::size_t size = text.size();
     cl_int code = CL_SUCCESS;

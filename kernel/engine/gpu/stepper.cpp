@@ -17,7 +17,6 @@
 namespace voxmelt::gpu {
 namespace {
 
-constexpr int kTerms = 24;         // as in program/cells.cl
 constexpr int kColumnNumbers = 8;  // of a Column (program/settle.cl)
 constexpr int kDirections = 8;
 
@@ -51,7 +50,7 @@ RegionBox box_of(const rule::Region& region, state::Grid grid) {
   return box;
 }
 
-// Books of one group, in the order of program/cells.cl.
+// The ledgers' part of the books of one group, in the order of program/cells.cl.
 state::LedgerTerms<std::int64_t> terms_of(const std::int64_t* slot) {
   state::LedgerTerms<std::int64_t> terms;
   const auto take = [&](auto& ledger) {
@@ -67,7 +66,10 @@ state::LedgerTerms<std::int64_t> terms_of(const std::int64_t* slot) {
 }  // namespace
 
 Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid)
-    : device_(std::move(device)), parameters_(parameters), shape_(grid) {
+    : device_(std::move(device)),
+      parameters_(parameters),
+      shape_(grid),
+      kinds_(source_kinds(parameters.heat)) {
   if (shape_.cells > std::numeric_limits<std::int32_t>::max())
     throw DeviceError("the scene's grid is too large for a device: 2^31 cells are the most");
   const auto bricks = static_cast<std::int64_t>(shape_.bricks.cells());
@@ -172,7 +174,11 @@ void Stepper::collect_books() {
   std::vector<std::int64_t> sums(static_cast<std::size_t>(kTerms) * static_cast<std::size_t>(groups_));
   device_->read(*books_, sums.data(), sizeof(std::int64_t) * sums.size());
   device_->clear(*books_, sizeof(std::int64_t) * sums.size());
-  for (std::size_t slot = 0; slot < sums.size(); slot += kTerms) ledger_.book(terms_of(sums.data() + slot));
+  for (std::size_t slot = 0; slot < sums.size(); slot += kTerms) {
+    ledger_.book(terms_of(sums.data() + slot));
+    ray_counts_.capped += sums[slot + kLightCut];
+    ray_counts_.rays += sums[slot + kLightRays];
+  }
   steps_in_books_ = 0;
 }
 
@@ -265,37 +271,12 @@ void Stepper::source(std::uint32_t step) {
   }
 }
 
-// Sends the words of 64 cells that are new, or all of it if nobody says which.
-void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance) {
-  if (irradiance == nullptr || (knows_light_ && !parameters_.heat.is_visibility_step(step))) return;
-  const std::optional<state::ChangedRows> told = std::exchange(new_light_, {});
-  if (!knows_light_ || !told) {
-    const std::vector<std::uint16_t> numbers = packed(*irradiance, shape_);
-    if (!irradiance_) irradiance_ = allocate(2 * numbers.size());
-    device_->write(*irradiance_, numbers.data(), 2 * numbers.size());
-    knows_light_ = true;
-    return;
-  }
-  const PackedWords words = packed_words(*irradiance, *told, shape_);
-  if (words.places.empty()) return;
-  const std::size_t count = words.places.size();
-  if (count > light_room_) {
-    light_room_ = 2 * count;
-    light_places_ = device_->allocate(4 * light_room_);
-    light_words_ = device_->allocate(2 * kWordCells * light_room_);
-  }
-  device_->write(*light_places_, words.places.data(), 4 * count);
-  device_->write(*light_words_, words.numbers.data(), 2 * words.numbers.size());
-  device_->run(Kernel::put_light, groups_,
-               {constants_.get(), light_places_.get(), light_words_.get(), irradiance_.get(),
-                as_int(static_cast<std::int64_t>(count))});
-}
-
 // The heats go from one memory to the other, pass by pass. In the end they are where they were: what no
 // kernel visits is right there alone.
 void Stepper::heat(std::uint32_t step, const step::Irradiance* irradiance) {
   const rule::Heat& heat = parameters_.heat;
   upload_irradiance(step, irradiance);
+  const bool radiates = irradiance != nullptr || own_light_;
   const Memory *from = heat_.now.get(), *to = heat_.next.get();
   const auto conduct = [&](int axes, std::int32_t weight) {
     device_->run(Kernel::conduct, groups_,
@@ -309,11 +290,11 @@ void Stepper::heat(std::uint32_t step, const step::Irradiance* irradiance) {
 
   const bool back = from == heat_.next.get(), alone = heat.convection == 0;
   if (!back && alone) to = from;  // each cell by itself, in place
-  if (back || !alone || irradiance != nullptr || heat.air)
+  if (back || !alone || radiates || heat.air)
     device_->run(
         Kernel::exchange, groups_,
         {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), from, to, irradiance_.get(),
-         books_.get(), full_.get(), counts_.get(), irradiance != nullptr ? 1 : 0, rule::dither(step)});
+         books_.get(), full_.get(), counts_.get(), radiates ? 1 : 0, rule::dither(step)});
   if (!back && !alone)
     device_->run(Kernel::copy_heat, groups_, {constants_.get(), to, from, full_.get(), counts_.get()});
 }

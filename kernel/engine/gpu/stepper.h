@@ -22,6 +22,10 @@ class Stepper final : public step::DeviceStepper {
 
   void change_sources(const rule::Parameters& parameters) override;
   void tell_irradiance(const state::ChangedRows& changed) override;
+  bool follows_rays(const rule::Heat& heat) const override;
+  void find_irradiance(std::uint32_t step) override;
+  void download_irradiance(step::Irradiance& irradiance) override;
+  step::RayCounts count_rays() override;
   void upload(const state::Volume& volume, const state::Ledger& ledger) override;
   void run_step(std::uint32_t step, const step::Irradiance* irradiance) override;
   void download_masks(state::Volume& volume) override;
@@ -49,6 +53,9 @@ class Stepper final : public step::DeviceStepper {
   void turn_over();
   void upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
   void collect_books();
+  void add_light(const rule::SourceKey& source, rule::SourceKind kind);
+
+  static constexpr int kTerms = 26, kLightCut = 24, kLightRays = 25;  // as in program/cells.cl
 
   std::shared_ptr<Device> device_;
   rule::Parameters parameters_;
@@ -65,6 +72,10 @@ class Stepper final : public step::DeviceStepper {
   std::optional<state::ChangedRows> new_light_;  // what is new in it, if that was told
   Buffer light_places_, light_words_;
   std::size_t light_room_ = 0;  // words
+  std::int32_t kinds_;          // of sources, to which the program follows rays
+  Buffer cubes_, blocks_;       // what is opaque (program/walk.cl)
+  bool own_light_ = false;      // the device found the irradiance of the last step of visibility itself
+  step::RayCounts ray_counts_;
   int steps_in_books_ = 0;
   state::Ledger ledger_;
 };

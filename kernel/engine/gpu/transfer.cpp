@@ -69,6 +69,13 @@ std::vector<std::uint16_t> packed(const step::Irradiance& irradiance, const Shap
   return to;
 }
 
+void unpack(const std::vector<std::uint16_t>& numbers, const Shape& shape, step::Irradiance& irradiance) {
+  for_each_row(shape, [&](int y, int z, std::size_t at) {
+    put_row(irradiance.row(y, z), shape.grid.x,
+            [&](int x) { return numbers[at + static_cast<std::size_t>(x)]; });
+  });
+}
+
 PackedWords packed_words(const step::Irradiance& irradiance, const state::ChangedRows& rows,
                          const Shape& shape) {
   PackedWords to;

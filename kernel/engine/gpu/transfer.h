@@ -29,6 +29,9 @@ struct PackedWords {
 PackedWords packed_words(const step::Irradiance& irradiance, const state::ChangedRows& rows,
                          const Shape& shape);
 
+// Writes all cells of an irradiance of the same grid.
+void unpack(const std::vector<std::uint16_t>& numbers, const Shape& shape, step::Irradiance& irradiance);
+
 // They write into a volume of the same grid. Energy and heat may be missing; then they stay.
 void unpack(const Packed& packed, const Shape& shape, state::Volume& volume);
 void unpack_masks(const std::vector<std::uint8_t>& flags, const Shape& shape, state::Volume& volume);

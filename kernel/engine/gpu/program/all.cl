@@ -10,4 +10,6 @@
 #include "kernel/engine/gpu/program/settle.cl"
 #include "kernel/engine/gpu/program/viscous_spread.cl"
 #include "kernel/engine/gpu/program/relax.cl"
+#include "kernel/engine/gpu/program/walk.cl"
+#include "kernel/engine/gpu/program/light.cl"
 #include "kernel/engine/gpu/program/copy.cl"

@@ -113,7 +113,9 @@ FN int opposite(int d) { return (int)((0x45672301u >> (4 * d)) & 7u); }
 #define LIMIT_LIMITED_CELLS 21
 #define LIMIT_MASS 22
 #define LIMIT_LIMITED_MASS 23
-#define TERMS 24
+#define LIGHT_CUT 24  // how often a cell was cut at the largest irradiance, and how many rays were cast: no ledger
+#define LIGHT_RAYS 25
+#define TERMS 26
 
 FN void book(GLOBAL long* books, LOCAL long* scratch, int term, long value) {
   scratch[LANE] = value;

@@ -49,6 +49,8 @@
 #define THERMAL ((int)P[45])
 #define MOBILITY_REFERENCE ((int)P[46])
 #define MOBILITY_RATE ((int)P[47])
+#define RAY_SIDE ((int)P[48])
+#define KINDS ((int)P[49])
 #endif
 
 // Numbers in tables: where each begins.
@@ -58,4 +60,5 @@
 #define WEIGHTS 208           // [faces, edges, corners][16][16]
 #define PATTERN_TABLE 976     // [16][4]
 #define MOBILITY_TABLE 1040   // [32]
-#define AIR_TEMPERATURES 1072 // [NY]
+#define RAY_KEYS 1072         // of the random bits of rays
+#define AIR_TEMPERATURES 1088 // [NY]

@@ -19,3 +19,4 @@
 #define RAISE_TO(number, least) atomic_max(number, least)
 #define LOOK(flag) (flag)
 #define RAISE(flag) ((flag) = 1)
+#define MUL_HIGH(a, b) mul_hi(a, b)

@@ -42,6 +42,9 @@ void raise_to(int& number, int least) {
   }
 }
 
+__extension__ using Wide = unsigned __int128;
+ulong mul_high(ulong a, ulong b) { return static_cast<ulong>(Wide{a} * b >> 64); }
+
 #define KERNEL(name) void name
 #define GLOBAL
 #define LOCAL
@@ -62,6 +65,7 @@ void raise_to(int& number, int least) {
 #define RAISE_TO(number, least) raise_to(*(number), least)
 #define LOOK(flag) std::atomic_ref(const_cast<uchar&>(flag)).load(std::memory_order_relaxed)
 #define RAISE(flag) std::atomic_ref(flag).store(1, std::memory_order_relaxed)
+#define MUL_HIGH(a, b) mul_high(a, b)
 
 #include "kernel/engine/gpu/program/all.cl"
 
@@ -102,7 +106,8 @@ constexpr Call kCalls[] = {CALL(list_bricks),    CALL(find_matter), CALL(vent), 
                            CALL(border),         CALL(conduct),     CALL(exchange),       CALL(copy_heat),
                            CALL(find_cold),      CALL(melt),        CALL(gravity),        CALL(find_patterns),
                            CALL(apply_patterns), CALL(settle),      CALL(count_substeps), CALL(spread_runs),
-                           CALL(begin_relaxing), CALL(relax),       CALL(put_light),      CALL(copy_words)};
+                           CALL(begin_relaxing), CALL(relax),       CALL(put_light),      CALL(find_cubes),
+                           CALL(find_blocks),    CALL(add_light),   CALL(share_light),    CALL(copy_words)};
 static_assert(std::size(kCalls) == std::size(kKernelNames));
 
 class PlainDevice final : public Device {

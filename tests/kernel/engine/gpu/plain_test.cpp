@@ -20,7 +20,7 @@ class Kernels : public testing::TestWithParam<rule::Law> {};
 TEST_P(Kernels, SameBitsInHostileWorlds) {
   for (int seed = 0; seed < rounds(300); ++seed) {
     const HostileWorld world = hostile_world(seed, GetParam());
-    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 6))
+    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 6, seed % 4 == 1))
       FAIL() << "seed " << seed;
   }
 }
@@ -28,7 +28,7 @@ TEST_P(Kernels, SameBitsInHostileWorlds) {
 TEST_P(Kernels, SameBitsWhereMostBricksAreEmpty) {
   for (int seed = 0; seed < rounds(150); ++seed) {
     const HostileWorld world = sparse_world(seed, GetParam());
-    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 14))
+    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 14, seed % 4 == 1))
       FAIL() << "seed " << seed;
   }
 }

@@ -1,5 +1,5 @@
 // A device and the reference run side by side. After every step they must have the same state and the same
-// books.
+// books. The device follows the rays of heat sources itself, or the host does and sends the irradiance.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,9 +7,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "kernel/automaton/state/ledger_difference.h"
 #include "kernel/engine/gpu/stepper.h"
+#include "kernel/engine/visibility/kept_rays.h"
 #include "tests/kernel/engine/parallel/equal.h"
 
 namespace voxmelt::worlds {
@@ -25,9 +27,12 @@ inline step::Implementation on_device(const MakeDevice& make) {
 }
 
 inline bool same_steps_on_device(const Parameters& parameters, const Volume& start, const MakeDevice& make,
-                                 int count) {
+                                 int count, bool host_follows_rays = false) {
   run::Simulation expected(parameters, start, implementation("reference"));
-  run::Simulation actual(parameters, start, on_device(make));
+  std::unique_ptr<visibility::Provider> provider;  // a usual one, whose name a device does not stand for
+  if (host_follows_rays)
+    provider = std::make_unique<visibility::KeptRays>(std::make_unique<visibility::PlainCaster>());
+  run::Simulation actual(parameters, start, on_device(make), {}, std::move(provider));
   for (int step = 0; step < count; ++step) {
     expected.step();
     actual.step();
