@@ -31,11 +31,9 @@ bool is_shortage_of_threads(std::string_view text) {
   return text.starts_with("pthread_create") && text.ends_with(std::strerror(EAGAIN));
 }
 
-bool device_was_lost = false;
-
 }  // namespace
 
-bool ends_at_once() { return device_was_lost; }
+bool ends_at_once() { return step::DeviceLost::happened; }
 
 Ending ending_of(const std::exception_ptr& thrown) {
   try {
@@ -52,9 +50,6 @@ Ending ending_of(const std::exception_ptr& thrown) {
     return {error.what(), kBadInput};
   } catch (const scene::ResourceError& error) {
     return {error.what(), kOutOfResources};
-  } catch (const step::DeviceLost& error) {
-    device_was_lost = true;
-    return {std::string("error: ") + error.what(), kOutOfResources};
   } catch (const step::DeviceError& error) {
     return {std::string("error: ") + error.what(), kOutOfResources};
   } catch (const io::OutputError& error) {

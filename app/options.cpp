@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "app/message.h"
 #include "app/resources.h"
 #include "app/visibility.h"
+#include "kernel/engine/visibility/providers.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/run/opening/checkpoint_scene.h"
 #include "kernel/run/opening/opening.h"
@@ -152,12 +152,36 @@ const step::Implementation& find_phased_implementation(const Common& common) {
   return found;
 }
 
-run::Simulation make_simulation(scene::Scene& scene, const Common& common) {
-  const step::Implementation& implementation = find_implementation(common);
+namespace {
+
+// Tells if a step of the scene asks nothing of the host's memory.
+bool stays_on_device(const scene::Scene& scene, const VisibilityChoice& visibility) {
+  return !scene.parameters.pieces.fall && visibility.name == visibility::kUsual;
+}
+
+}  // namespace
+
+run::Simulation make_simulation(scene::Scene& scene, const Common& common, Steps steps) {
+  step::Implementation implementation = find_implementation(common);
   step::Tuning tuning;
   tuning.threads = thread_count(common);
-  auto provider = make_provider(choose_visibility(common.visibility), tuning.threads);
-  return run::begin_run(scene, implementation, tuning, std::move(provider));
+  const VisibilityChoice visibility = choose_visibility(common.visibility);
+  if (common.implementation == "auto" && steps == Steps::whole && stays_on_device(scene, visibility)) {
+    const run::Choice& choice = run::fastest_for_steps();
+    implementation = *choice.implementation;
+    implementation.spare = choice.spare;
+    implementation.told = [device = implementation.name, choice](const step::DeviceError& why) {
+      say(fmt::format("warning: {} fails, and {} goes on: {}", device, choice.spare->name, why.what()));
+    };
+  }
+  return run::begin_run(scene, implementation, tuning, make_provider(visibility, tuning.threads));
+}
+
+std::string reason_of(const run::Simulation& simulation, const Common& common) {
+  if (!simulation.failure().empty()) return "it went on where a device failed: " + simulation.failure();
+  const run::Choice chosen = run::chosen(common.implementation);
+  const bool card = chosen.implementation->name != simulation.implementation();
+  return card ? run::fastest_for_steps().reason : chosen.reason;
 }
 
 void keep_inputs(const scene::Scene& scene, const std::vector<Output>& outputs) {

@@ -48,7 +48,11 @@ void warn(scene::Scene& scene, const Common& common, const std::vector<std::stri
 const step::Implementation& find_implementation(const Common& common);
 const step::Implementation& find_phased_implementation(const Common& common);
 // Makes the simulation. It moves the scene's initial state away, because a large one need not be held twice.
-run::Simulation make_simulation(scene::Scene& scene, const Common& common);
+// Where nobody looks at single phases, `auto` may be a graphics card, and a processor is its spare.
+enum class Steps : std::uint8_t { whole, of_a_processor };
+run::Simulation make_simulation(scene::Scene& scene, const Common& common, Steps steps = Steps::whole);
+// Says for the report why this implementation runs it.
+std::string reason_of(const run::Simulation& simulation, const Common& common);
 int thread_count(const Common& common);
 
 // An output may not take the place of a file that a scene reads, nor of a folder above it. Empty places do

@@ -22,7 +22,7 @@ run::Simulation run_ahead(scene::Scene& scene, const Common& common, std::uint32
   until = !scene.mid_run || until - age >= earliest ? until - age : until - age + heat.visibility_every;
   until = std::max(until, scene.first_step);
   if (!common.quiet && until != asked) print("verifying from step {}, a step of visibility\n", until);
-  run::Simulation simulation = make_simulation(scene, common);
+  run::Simulation simulation = make_simulation(scene, common, Steps::of_a_processor);
   if (!common.quiet && simulation.step_number() < until)
     print_error("{} runs to step {}\n", scene.name, until);
   while (simulation.step_number() < until) {

@@ -34,7 +34,10 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
                        std::unique_ptr<visibility::Provider> provider)
     : parameters_(std::move(parameters)),
       volume_(std::move(initial)),
+      name_(implementation.name),
       create_(implementation.create),
+      spare_(implementation.spare),
+      told_(implementation.told),
       tuning_(tuning),
       provider_(provider != nullptr ? std::move(provider) : visibility::usual_provider(tuning.threads)),
       ledger_(state::Ledger::open(volume_)),
@@ -46,7 +49,15 @@ Simulation::Simulation(rule::Parameters parameters, state::Volume initial,
 }
 
 void Simulation::make_stepper() {
-  stepper_ = create_(parameters_, volume_.grid, tuning_);
+  if (spare_ != nullptr && parameters_.pieces.fall) use_spare("pieces fall in the memory of the host");
+  try {
+    stepper_ = create_(parameters_, volume_.grid, tuning_);
+  } catch (const step::DeviceError& why) {
+    if (spare_ == nullptr) throw;
+    use_spare(why.what());
+    if (told_) told_(why);
+    stepper_ = create_(parameters_, volume_.grid, tuning_);
+  }
   host_ = dynamic_cast<step::HostStepper*>(stepper_.get());
   device_ = dynamic_cast<step::DeviceStepper*>(stepper_.get());
 }
@@ -58,6 +69,7 @@ void Simulation::make_irradiance() {
 }
 
 void Simulation::change_sources(Sources sources) {
+  if (spare_ != nullptr) fetch();  // it may go on from here, and must not begin earlier with these sources
   parameters_.heat.sources = std::move(sources.heat);
   parameters_.heat.radiation = parameters_.heat.radiation || !parameters_.heat.sources.empty();
   parameters_.vents = std::move(sources.vents);
@@ -72,9 +84,7 @@ void Simulation::change_parameters(rule::Parameters parameters) {
   fetch();
   fetch_light();
   tell_changes();
-  const step::RayCounts counts = counts_of_device();
-  irradiance_capped_ += counts.capped;
-  casts_before_ += {counts.rays, counts.rays};
+  keep_counts(counts());
   device_has_light_ = false;
   parameters_ = std::move(parameters);
   parameters_.heat.ray_seed = parameters_.seed;
@@ -116,6 +126,7 @@ void Simulation::resume(state::MidRun run) {
   irradiance_capped_ = run.irradiance_capped;
   casts_before_ = {run.rays, run.rays_cast};
   seconds_ = run.seconds;
+  know_state(counts());
 }
 
 state::MidRun Simulation::mid_run() const {
@@ -147,6 +158,7 @@ void Simulation::let_pieces_fall() {
 }
 
 void Simulation::fetch_masks() {
+  if (spare_ != nullptr) fetch();  // a state with new masks is none that a spare could go on from
   if (masks_are_old_ && behind_) device_->download_masks(volume_);
   masks_are_old_ = false;
 }
@@ -171,6 +183,7 @@ bool Simulation::device_follows_rays() const {
 // The provider does not find there what it has written, so it must write all of it the next time.
 void Simulation::fetch_light() const {
   if (!light_is_old_) return;
+  if (spare_ != nullptr) return fetch();
   device_->download_irradiance(irradiance_);
   provider_->forget_amounts();
   light_is_old_ = false;
@@ -228,6 +241,15 @@ void Simulation::tell_changes() const {
 }
 
 void Simulation::step() {
+  bool done = false;
+  on_device([&] {
+    take_step();
+    done = true;
+  });
+  if (!done) take_step();
+}
+
+void Simulation::take_step() {
   begin_step();
   if (device_ != nullptr) {
     device_->run_step(step_number(), device_has_light_ ? nullptr : host_light());
@@ -244,9 +266,85 @@ void Simulation::step() {
   end_step();
 }
 
+// With a spare, the irradiance comes with the state, and nothing is written before all of it is here.
 void Simulation::download() const {
-  device_->download(volume_, ledger_);
-  behind_ = false;
+  on_device([&] {
+    step::Irradiance light;
+    Counts now;
+    const bool with_light = spare_ != nullptr && light_is_old_;
+    if (with_light) device_->download_irradiance(light = step::Irradiance(volume_.grid));
+    if (spare_ != nullptr) now = counts_with(device_->count_rays());
+    device_->download(volume_, ledger_);
+    behind_ = false;
+    if (with_light) {
+      irradiance_ = std::move(light);
+      provider_->forget_amounts();
+      light_is_old_ = false;
+    }
+    know_state(now);
+  });
+}
+
+// Lets the spare go on if the device fails. It then stands where the device stood.
+template <class Work>
+void Simulation::on_device(const Work& work) const {
+  try {
+    work();
+  } catch (const step::DeviceError& why) {
+    if (spare_ == nullptr) throw;
+    const_cast<Simulation*>(this)->leave_device(why);  // no simulation is a constant
+  }
+}
+
+void Simulation::use_spare(const std::string& why) {
+  failure_ = name_ + ": " + why;
+  name_ = spare_->name;
+  create_ = spare_->create;
+  spare_ = nullptr;
+}
+
+// Takes the steps again that the device has done since its state was fetched.
+void Simulation::leave_device(const step::DeviceError& why) {
+  // The driver of a lost device may still write where the stepper wanted it to, so that one never ends.
+  static auto& lost = *new std::vector<std::unique_ptr<step::Stepper>>;
+  if (dynamic_cast<const step::DeviceLost*>(&why) != nullptr) lost.push_back(std::move(stepper_));
+  use_spare(why.what());
+  const std::uint32_t wanted = std::exchange(steps_done_, known_steps_);
+  keep_counts(known_counts_);
+  behind_ = masks_are_old_ = device_has_light_ = light_is_old_ = false;
+  make_stepper();
+  provider_->forget_amounts();
+  volume_.changed.forget();
+  if (told_) told_(why);
+  while (steps_done_ < wanted) take_step();
+}
+
+Simulation::Counts Simulation::counts() const {
+  step::RayCounts found;
+  on_device([&] {
+    if (device_ != nullptr) found = device_->count_rays();
+  });
+  return counts_with(found);
+}
+
+// A device follows every ray each time.
+Simulation::Counts Simulation::counts_with(const step::RayCounts& of_device) const {
+  Counts all{irradiance_capped_ + of_device.capped, casts_before_};
+  all.casts += provider_->casts();
+  all.casts += {of_device.rays, of_device.rays};
+  return all;
+}
+
+// Makes these the counts of the run, for a device that has counted nothing yet, or for none.
+void Simulation::keep_counts(const Counts& counts) {
+  const visibility::Casts own = provider_->casts();
+  irradiance_capped_ = counts.capped;
+  casts_before_ = {counts.casts.asked - own.asked, counts.casts.cast - own.cast};
+}
+
+void Simulation::know_state(const Counts& counts) const {
+  known_steps_ = steps_done_;
+  known_counts_ = counts;
 }
 
 }  // namespace voxmelt::run

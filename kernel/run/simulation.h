@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "kernel/automaton/state/ledger.h"
@@ -69,9 +70,7 @@ class Simulation {
   std::uint32_t steps_done() const { return steps_done_; }
   std::uint32_t step_number() const { return first_step_ + steps_done_; }
   const step::Irradiance* irradiance() const { return fetch_light(), host_light(); }
-  std::int64_t irradiance_capped() const {  // times that a cell was cut
-    return irradiance_capped_ + counts_of_device().capped;
-  }
+  std::int64_t irradiance_capped() const { return counts().capped; }  // times that a cell was cut
   const state::Volume& volume() const { return fetch(), tell_changes(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
   const rule::Parameters& parameters() const { return parameters_; }
@@ -88,12 +87,13 @@ class Simulation {
 
   const state::Seconds& seconds() const { return seconds_; }  // with a device stepper, none of a phase
   visibility::Casts casts() const {                           // counts of the whole run
-    visibility::Casts all = casts_before_;
-    all += provider_->casts();
-    const std::int64_t rays = counts_of_device().rays;  // a device follows every ray each time
-    return all += {rays, rays};
+    return counts().casts;
   }
   bool device_follows_rays() const;  // then the provider has nothing to do
+  // Returns the name of the implementation that runs the steps: the spare's if a device has failed. Then it
+  // says why.
+  const std::string& implementation() const { return name_; }
+  const std::string& failure() const { return failure_; }
   const visibility::Provider& provider() const { return *provider_; }
 
  private:
@@ -105,9 +105,19 @@ class Simulation {
   bool let_pieces_fall_for_device();
   void fetch_masks();
   void fetch_light() const;
-  step::RayCounts counts_of_device() const {
-    return device_ != nullptr ? device_->count_rays() : step::RayCounts{};
-  }
+  struct Counts {  // of the whole run
+    std::int64_t capped = 0;
+    visibility::Casts casts;
+  };
+  Counts counts() const;
+  Counts counts_with(const step::RayCounts& of_device) const;
+  void keep_counts(const Counts& counts);
+  void know_state(const Counts& counts) const;
+  void take_step();
+  void use_spare(const std::string& why);
+  void leave_device(const step::DeviceError& why);
+  template <class Work>
+  void on_device(const Work& work) const;
   const step::Irradiance* host_light() const { return irradiance_.empty() ? nullptr : &irradiance_; }
   void find_irradiance();
   void run(step::Phase phase, step::Moment moment);
@@ -125,7 +135,10 @@ class Simulation {
 
   rule::Parameters parameters_;
   mutable state::Volume volume_;
+  std::string name_, failure_;
   decltype(step::Implementation::create) create_;  // makes the stepper
+  const step::Implementation* spare_;              // goes on if the device fails, or null
+  decltype(step::Implementation::told) told_;      // hears why
   step::Tuning tuning_;
   std::unique_ptr<step::Stepper> stepper_;
   step::HostStepper* host_ = nullptr;      // the stepper, if it is a host stepper
@@ -146,6 +159,10 @@ class Simulation {
   int substep_ = 0;  // of the next phase
   state::Seconds seconds_;
   visibility::Casts casts_before_;  // before the run was resumed, and by devices that it has left
+
+  // Where a spare would go on: our state is that of so many steps, and of such counts.
+  mutable std::uint32_t known_steps_ = 0;
+  mutable Counts known_counts_;
 };
 
 }  // namespace voxmelt::run

@@ -73,7 +73,8 @@ class DeviceError : public std::runtime_error {
 // what they use.
 class DeviceLost : public DeviceError {
  public:
-  using DeviceError::DeviceError;
+  explicit DeviceLost(const std::string& what) : DeviceError(what) { happened = true; }
+  static inline bool happened = false;  // in this program
 };
 
 // Counts of a device that follows rays itself, since it was made.
@@ -128,6 +129,11 @@ struct Implementation {
       create;
   bool supported = true;     // this processor can run it
   bool whole_steps = false;  // a device: it runs no single phase
+  bool is_card = false;      // a device that is a graphics card, and no processor
+  // If a device fails, this one goes on from the last state that was fetched, and `told` hears why. Without
+  // it the run ends.
+  const Implementation* spare = nullptr;
+  std::function<void(const DeviceError&)> told = {};
 };
 
 // Every folder of kernel/engine/ with implementations has an add_implementations(registry). kernel/run/ calls

@@ -54,7 +54,7 @@ void add_implementations(step::Registry& registry) {
                         open(limited(device), &constants, limit("VOXMELT_DEVICE_PATIENCE").value_or(120)),
                         parameters, grid);
                   },
-                  true, true});
+                  true, true, device.is_card});
   }
 }
 

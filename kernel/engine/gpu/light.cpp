@@ -50,9 +50,10 @@ void Stepper::add_light(const rule::SourceKey& source, rule::SourceKind kind) {
 }
 
 void Stepper::download_irradiance(step::Irradiance& irradiance) {
-  std::vector<std::uint16_t> numbers(static_cast<std::size_t>(shape_.cells));
+  auto& numbers = in_flight(std::vector<std::uint16_t>(static_cast<std::size_t>(shape_.cells)));
   device_->read(*irradiance_, numbers.data(), 2 * numbers.size());
   unpack(numbers, shape_, irradiance);
+  in_flight_.reset();
 }
 
 step::RayCounts Stepper::count_rays() {
@@ -67,13 +68,14 @@ void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irra
   if (knows_light_ && !parameters_.heat.is_visibility_step(step)) return;
   const std::optional<state::ChangedRows> told = std::exchange(new_light_, {});
   if (!knows_light_ || !told) {
-    const std::vector<std::uint16_t> numbers = packed(*irradiance, shape_);
+    const auto& numbers = in_flight(packed(*irradiance, shape_));
     if (!irradiance_) irradiance_ = allocate(2 * numbers.size());
     device_->write(*irradiance_, numbers.data(), 2 * numbers.size());
+    in_flight_.reset();
     knows_light_ = true;
     return;
   }
-  const PackedWords words = packed_words(*irradiance, *told, shape_);
+  const PackedWords& words = in_flight(packed_words(*irradiance, *told, shape_));
   if (words.places.empty()) return;
   const std::size_t count = words.places.size();
   if (count > light_room_) {

@@ -231,6 +231,7 @@ std::vector<OpenClDevice> found() {
                      number_of<cl_ulong>(id, CL_DEVICE_GLOBAL_MEM_SIZE),
                      number_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE),
                      (number_of<cl_device_type>(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0,
+                     (number_of<cl_device_type>(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_GPU) != 0,
                      static_cast<int>(number_of<cl_uint>(id, CL_DEVICE_MAX_COMPUTE_UNITS)), id});
     }
   }

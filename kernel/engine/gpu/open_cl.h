@@ -17,6 +17,7 @@ struct OpenClDevice {
   std::string driver;                           // its version, and that of OpenCL
   std::uint64_t memory = 0, largest_piece = 0;  // bytes
   bool is_processor = false;                    // an ordinary processor, no device of its own
+  bool is_card = false;                         // a graphics card
   int units = 1;                                // that compute beside each other
   void* device = nullptr;                       // as the library knows it
 };

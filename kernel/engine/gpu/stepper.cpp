@@ -124,7 +124,7 @@ void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = 
 void Stepper::change_sources(const rule::Parameters& parameters) { parameters_ = parameters; }
 
 void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
-  const Packed state = packed(volume, shape_);
+  const Packed& state = in_flight(packed(volume, shape_));
   const std::size_t bytes = 2 * state.amount.size();
   device_->write(*flags_, state.flags.data(), state.flags.size());
   const auto both = [&](Twice& field, const std::vector<std::uint16_t>& numbers) {
@@ -145,17 +145,22 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   steps_in_books_ = 0;
   knows_light_ = false;
   new_light_.reset();
+  in_flight_.reset();
 }
 
 void Stepper::download_masks(state::Volume& volume) {
-  std::vector<std::uint8_t> flags(static_cast<std::size_t>(shape_.cells));
+  auto& flags = in_flight(std::vector<std::uint8_t>(static_cast<std::size_t>(shape_.cells)));
   device_->read(*flags_, flags.data(), flags.size());
   unpack_masks(flags, shape_, volume);
+  in_flight_.reset();
 }
 
+// It writes nothing before it has everything.
 void Stepper::download(state::Volume& volume, state::Ledger& ledger) {
   const auto cells = static_cast<std::size_t>(shape_.cells);
-  Packed state{std::vector<std::uint8_t>(cells), std::vector<std::uint16_t>(cells), {}, {}};
+  collect_books();
+  Packed& state =
+      in_flight(Packed{std::vector<std::uint8_t>(cells), std::vector<std::uint16_t>(cells), {}, {}});
   device_->read(*flags_, state.flags.data(), cells);
   device_->read(*amount_.now, state.amount.data(), 2 * cells);
   const auto read = [&](const Twice& field, std::vector<std::uint16_t>& numbers) {
@@ -166,12 +171,13 @@ void Stepper::download(state::Volume& volume, state::Ledger& ledger) {
   read(energy_, state.energy);
   read(heat_, state.heat);
   unpack(state, shape_, volume);
-  collect_books();
   ledger = ledger_;
+  in_flight_.reset();
 }
 
 void Stepper::collect_books() {
-  std::vector<std::int64_t> sums(static_cast<std::size_t>(kTerms) * static_cast<std::size_t>(groups_));
+  auto& sums = in_flight(
+      std::vector<std::int64_t>(static_cast<std::size_t>(kTerms) * static_cast<std::size_t>(groups_)));
   device_->read(*books_, sums.data(), sizeof(std::int64_t) * sums.size());
   device_->clear(*books_, sizeof(std::int64_t) * sums.size());
   for (std::size_t slot = 0; slot < sums.size(); slot += kTerms) {
@@ -180,6 +186,7 @@ void Stepper::collect_books() {
     ray_counts_.rays += sums[slot + kLightRays];
   }
   steps_in_books_ = 0;
+  in_flight_.reset();
 }
 
 void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {

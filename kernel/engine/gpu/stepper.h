@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/ledger.h"
@@ -53,6 +54,8 @@ class Stepper final : public step::DeviceStepper {
   void turn_over();
   void upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
   void collect_books();
+  template <class T>
+  T& in_flight(T value);
   void add_light(const rule::SourceKey& source, rule::SourceKind kind);
 
   static constexpr int kTerms = 26, kLightCut = 24, kLightRays = 25;  // as in program/cells.cl
@@ -77,7 +80,17 @@ class Stepper final : public step::DeviceStepper {
   bool own_light_ = false;      // the device found the irradiance of the last step of visibility itself
   step::RayCounts ray_counts_;
   int steps_in_books_ = 0;
+  // Holds what is being sent or fetched. A device that is lost may still write there, so it lives as long as
+  // we do.
+  std::shared_ptr<void> in_flight_;
   state::Ledger ledger_;
 };
+
+template <class T>
+T& Stepper::in_flight(T value) {
+  auto held = std::make_shared<T>(std::move(value));
+  in_flight_ = held;
+  return *held;
+}
 
 }  // namespace voxmelt::gpu

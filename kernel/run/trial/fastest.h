@@ -16,7 +16,8 @@ namespace voxmelt::run {
 
 struct Choice {
   const step::Implementation* implementation;
-  std::string reason;  // "1.84 times as fast as sse4.2 in a trial on this processor"
+  std::string reason;                           // "1.84 times as fast as sse4.2 in a trial on this processor"
+  const step::Implementation* spare = nullptr;  // of a card: what goes on if the card fails
 };
 
 const Choice& fastest();  // one of implementations(), decided once in a program
@@ -26,11 +27,20 @@ const Choice& fastest();  // one of implementations(), decided once in a program
 // reference, avx2".
 Choice chosen(const std::string& name);
 
+// Returns what `auto` means for whole steps that stay on a device: a graphics card, if one was faster in a
+// trial beside fastest(), which is its spare; otherwise fastest(). A device that is no card is never taken.
+const Choice& fastest_for_steps();
+
 using Trial = std::function<std::vector<TrialTime>(const std::vector<const step::Implementation*>&)>;
 
 // Does the same for any registry, file (empty: none) and trial. `machine` names in one line the machine for
 // which an answer holds. A file that is unreadable or has nonsense counts as missing.
 Choice choose(const step::Registry& registry, const std::filesystem::path& file, const std::string& machine,
               const Trial& trial);
+
+// Does the same for cards. `devices` is asked for only if no answer is remembered, or it is a card.
+using Devices = std::function<const step::Registry&()>;
+Choice choose_for_steps(const Choice& processor, const Devices& devices, const std::filesystem::path& file,
+                        const std::string& machine, const Trial& trial);
 
 }  // namespace voxmelt::run

@@ -1,10 +1,13 @@
 #include "kernel/run/trial/trial.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <thread>
 
 #include "kernel/automaton/state/digest.h"
 #include "kernel/run/simulation.h"
@@ -59,7 +62,40 @@ double timed(const step::Implementation& implementation, const state::Volume& st
   return thread_seconds() - begin;
 }
 
+// Times whole steps as a run has them, the first one not. It is infinite if the device fails.
+double timed_steps(const step::Implementation& implementation, const state::Volume& start) {
+  constexpr int kWholeSteps = 16;
+  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  try {
+    auto simulation =
+        std::make_unique<Simulation>(melt(), start, implementation, step::Tuning{.threads = threads});
+    try {
+      simulation->step();
+      simulation->ledger();
+      const auto begin = std::chrono::steady_clock::now();
+      for (int step = 0; step < kWholeSteps; ++step) simulation->step();
+      simulation->ledger();
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    } catch (const step::DeviceLost&) {
+      static_cast<void>(simulation.release());  // the driver may still write into its memory
+      throw;
+    }
+  } catch (const step::DeviceError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 }  // namespace
+
+std::vector<TrialTime> trial_of_steps(const std::vector<const step::Implementation*>& implementations) {
+  const state::Volume dense = pool({128, 48, 96}, 48), thin = pool({256, 48, 128}, 4);
+  std::vector<TrialTime> times;
+  for (const step::Implementation* one : implementations) {
+    const double seconds = std::sqrt(timed_steps(*one, dense) * timed_steps(*one, thin));
+    if (std::isfinite(seconds)) times.push_back({one, seconds});
+  }
+  return times;
+}
 
 std::vector<TrialTime> trial(const std::vector<const step::Implementation*>& implementations) {
   const state::Volume dense = pool({64, 24, 48}, 24), thin = pool({128, 24, 64}, 2);

@@ -16,4 +16,8 @@ struct TrialTime {
 // and every round times all of them. They run on one thread.
 std::vector<TrialTime> trial(const std::vector<const step::Implementation*>& implementations);
 
+// Times whole steps by the clock, of volumes as large as the scenes that come with the program, and one fetch
+// of the state after them. Processors take all their threads. A device that fails has no time.
+std::vector<TrialTime> trial_of_steps(const std::vector<const step::Implementation*>& implementations);
+
 }  // namespace voxmelt::run

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -84,13 +85,13 @@ TEST_F(Fastest, RememberedForOneMachine) {
   EXPECT_EQ(std::distance(fs::directory_iterator(file().parent_path()), {}), 1) << "nothing else is left";
 }
 
-TEST_F(Fastest, TheLastEightMachines) {
-  for (std::size_t i = 0; i < 20; ++i) {
+TEST_F(Fastest, TheLastSixteenMachines) {
+  for (std::size_t i = 0; i < 40; ++i) {
     choice("machine" + std::to_string(i));
-    ASSERT_EQ(lines().size(), std::min(i + 1, std::size_t{8}));
+    ASSERT_EQ(lines().size(), std::min(i + 1, std::size_t{16}));
   }
-  EXPECT_TRUE(lines().front().starts_with("machine12 wide "));
-  EXPECT_TRUE(lines().back().starts_with("machine19 wide "));
+  EXPECT_TRUE(lines().front().starts_with("machine24 wide "));
+  EXPECT_TRUE(lines().back().starts_with("machine39 wide "));
 }
 
 TEST_F(Fastest, NonsenseIsAsNothing) {
@@ -133,6 +134,89 @@ TEST_F(Fastest, OneIsNotTried) {
   EXPECT_FALSE(fs::exists(file()));
 }
 
+// There are two cards, and a device that is none, beside the processor's best.
+class Card : public testing::Test {
+ protected:
+  Card()
+      : folder_(fs::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    processors_.add({"wide", "", nullptr});
+    cards_.add({"gpu:0", "", nullptr, true, true, true});
+    cards_.add({"gpu:1", "", nullptr, true, true, true});
+    cards_.add({"gpu:2", "emulated", nullptr, true, true, false});
+  }
+  ~Card() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Choice choice(const std::string& machine = "this") {
+    const Devices devices = [this]() -> const step::Registry& { return ++looks_, cards_; };
+    return choose_for_steps({&processors_.all().front(), "it is wide"}, devices, folder_ / "fastest", machine,
+                            [this](const std::vector<const step::Implementation*>& all) {
+                              ++trials_;
+                              std::vector<TrialTime> times;
+                              for (const step::Implementation* one : all)
+                                if (seconds_.contains(one->name))
+                                  times.push_back({one, seconds_.at(one->name)});
+                              return times;
+                            });
+  }
+
+  fs::path folder_;
+  step::Registry processors_, cards_;
+  std::map<std::string, double> seconds_{{"wide", 3}, {"gpu:0", 2}, {"gpu:1", 1}, {"gpu:2", 0.1}};
+  int looks_ = 0, trials_ = 0;
+};
+
+TEST_F(Card, TheFastestWithTheProcessorAsItsSpare) {
+  for (int again = 0; again < 3; ++again) {
+    const Choice found = choice();
+    EXPECT_EQ(found.implementation->name, "gpu:1");
+    EXPECT_EQ(found.spare, &processors_.all().front());
+    EXPECT_EQ(found.reason,
+              "3.00 times as fast as wide, 2.00 times as fast as gpu:0, in a trial of whole steps");
+  }
+  EXPECT_EQ(trials_, 1) << "the answer is remembered";
+}
+
+TEST_F(Card, NoneThatIsSlowerAndNobodyLooksForItAgain) {
+  seconds_["wide"] = 0.5;
+  for (int again = 0; again < 3; ++again) {
+    const Choice found = choice();
+    EXPECT_EQ(found.implementation->name, "wide");
+    EXPECT_EQ(found.spare, nullptr);
+    EXPECT_EQ(found.reason, "it is wide");
+  }
+  EXPECT_EQ(looks_, 1);
+  EXPECT_EQ(trials_, 1);
+  seconds_["wide"] = 3;
+  EXPECT_EQ(choice("other").implementation->name, "gpu:1") << "a new driver asks for another trial";
+}
+
+TEST_F(Card, NoneThatFailsInTheTrial) {
+  seconds_.erase("gpu:0");
+  seconds_.erase("gpu:1");
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(choice().reason, "it is wide");
+}
+
+TEST_F(Card, NoTrialWithoutOne) {
+  cards_ = {};
+  cards_.add({"gpu:0", "emulated", nullptr, true, true, false});
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(looks_, 1);
+  EXPECT_EQ(trials_, 0);
+}
+
+TEST_F(Card, ThatIsGoneIsNotTaken) {
+  EXPECT_EQ(choice().implementation->name, "gpu:1");
+  cards_ = {};
+  EXPECT_EQ(choice().implementation->name, "wide");
+  EXPECT_EQ(choice().implementation->name, "wide");
+}
+
 TEST(Chosen, IsTheFastestOrHasTheName) {
   EXPECT_EQ(chosen("auto").implementation, fastest().implementation);
   EXPECT_EQ(chosen("auto").reason, fastest().reason);
@@ -158,6 +242,22 @@ TEST(Trial, TimesWhatItRuns) {
     EXPECT_EQ(times[i].implementation, able[i]);
     EXPECT_GT(times[i].seconds, 1e-5);
     EXPECT_LT(times[i].seconds, 10);
+  }
+}
+
+TEST(Trial, OfWholeStepsLeavesOutWhatFails) {
+  const auto fails = [](const rule::Parameters&, state::Grid,
+                        const step::Tuning&) -> std::unique_ptr<step::Stepper> {
+    throw step::DeviceError("it refuses");
+  };
+  const step::Implementation broken{"gpu:0", "", fails, true, true, true};
+  const step::Implementation* const widest = &implementations().widest();
+  const std::vector<TrialTime> times = trial_of_steps({widest, &broken, widest});
+  ASSERT_EQ(times.size(), 2U);
+  for (const TrialTime& one : times) {
+    EXPECT_EQ(one.implementation, widest);
+    EXPECT_GT(one.seconds, 1e-4);
+    EXPECT_LT(one.seconds, 10);
   }
 }
 

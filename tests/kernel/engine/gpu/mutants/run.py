@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bugs in the kernels for devices and in their host: does kernel_gpu_test find each of them?
+"""Bugs in the kernels for devices, in their host and in the run loop: does kernel_gpu_test find each of them?
 
     tests/kernel/engine/gpu/mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
     tests/kernel/engine/gpu/mutants/run.py           builds and runs each; --only says which
@@ -25,7 +25,7 @@ def found_by(build, mutant):
     """The first test that fails, or nothing."""
     with tempfile.TemporaryDirectory() as folder:
         program = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(PROGRAM)
-        code, text = run([str(program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=*Kernels*"], 300)
+        code, text = run([str(program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=*Kernels*:*Spare*"], 300)
     if code == 0:
         return ""
     first = re.search(r"\[  FAILED  \] (\S+?),? ", text + " ")
@@ -44,7 +44,7 @@ def main():
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith("kernel/engine/gpu/"))
+    build = Build(options.build, lambda source, *_: source.startswith(("kernel/engine/gpu/", "kernel/run/simulation")))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)
