@@ -12,6 +12,8 @@
 
 namespace voxmelt::gpu {
 
+static_assert(rule::kSourceKinds.size() == 4, "a kind whose rays program/light.cl does not know");
+
 // A program has the rays of these kinds alone, so sources that came later may be of others.
 bool Stepper::follows_rays(const rule::Heat& heat) const { return (source_kinds(heat) & ~kinds_) == 0; }
 

@@ -51,7 +51,8 @@ typedef struct {
 
 // A ray on its way: the cell where it is, and for each axis which way it goes, how far the next plane lies from its
 // start, and how far its end. So it crosses that plane at the fraction ahead / length of its way. Two fractions are
-// compared by products below 2^44 (docs/proofs.md). Where a length is 0, ahead is not, and no plane is ever crossed.
+// compared by products of 43 bits: 26 of a length (docs/proofs.md, "Widths"), and 17 of a plane in the grid or in a
+// block beyond its end. Where a length is 0, ahead is not, and no plane is ever crossed.
 typedef struct {
   Triple cell, way, ahead, length;
 } Walk;
