@@ -99,6 +99,17 @@ module apply_stage #(
   logic [P*64-1:0] here_south, here_corner, south_north, south_goes_west, south_corner;
   logic [P*64-1:0] here_east, south_east_axis, south_east_corner;  // to the window of the next lane
 
+  // Cells of all lanes but the last one are finished early, and wait for it.
+  localparam WAIT = P > 1 ? (P - 1) * CELL : 1;
+  logic [WAIT-1:0] ready_cells, waited_cells;
+  if (P > 1) begin : waiting
+    line_memory #(.WIDTH(WAIT), .DEPTH(DEPTH_FINISHED)) cells (
+        .clk(clk), .rst(rst), .en(move), .delay(finished), .d(ready_cells), .q(waited_cells));
+  end else begin : not_waiting
+    assign ready_cells = '0;
+    assign waited_cells = ready_cells;
+  end
+
   for (genvar lane = 0; lane < P; lane++) begin : lanes
     localparam NEXT = (lane + 1) % P, LAST = (lane + P - 1) % P;
     localparam [0:0] ENDS = lane == P - 1;  // its eastern cells are in another token
@@ -210,15 +221,13 @@ module apply_stage #(
           .printed(printed), .alpha(alpha), .finished(finished_word));
       assign last_word = finished_word;
     end else begin : ready
-      logic [CELL-1:0] later;
       finish_unit #(.PRINTED(PRINTED)) finish (
           .clk(clk), .move(move), .stored(south12), .footing(footing12), .left_amount(left12[15:0]),
           .left_energy(left12[31:16]), .amount_in(south12_sum[15:0]), .energy_in(south12_sum[31:16]),
           .content_in(south12_sum[63:32]), .dither3(early3), .dither4(early4), .hot(hot), .printed(printed),
           .alpha(alpha), .finished(finished_word));
-      line_memory #(.WIDTH(CELL), .DEPTH(DEPTH_FINISHED)) waiting (
-          .clk(clk), .rst(rst), .en(move), .delay(finished), .d(finished_word[CELL-1:0]), .q(later));
-      assign last_word = 50'(later);
+      assign ready_cells[lane*CELL+:CELL] = finished_word[CELL-1:0];
+      assign last_word = 50'(waited_cells[lane*CELL+:CELL]);
     end
     cell_of pack (
         .stored(last_word), .exposed_axes(2'd0), .pattern(8'd0), .beside_wall(1'b0), .touches(1'b0),
