@@ -53,6 +53,9 @@ class Small(Written):
         done = make(folder)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("token 700 differs", done.stdout)
+        loads = subprocess.run(["./built/testbench", "+load"], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(loads.returncode, 0, loads.stdout)
+        self.assertNotIn("token", loads.stdout)  # it only reads the vectors
 
     @unittest.skipUnless(shutil.which("yosys"), "skipped: `apt-get install yosys`")
     def test_yosys_reads_it_without_a_warning(self):
