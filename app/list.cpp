@@ -21,7 +21,11 @@ void list_implementations() {
   for (const auto& one : run::implementations().all())
     print("{:<12} {}{}\n", one.name, one.description, one.supported ? "" : " (not on this processor)");
   for (const auto& one : run::devices().all()) print("{:<12} {}\n", one.name, one.description);
-  print("{:<12} {}: {}\n", "auto", chosen.implementation->name, chosen.reason);
+  const run::Choice& steps = run::fastest_for_steps();
+  const std::string card = steps.spare == nullptr ? ""
+                                                  : fmt::format("; {} in run, digest, render and export: {}",
+                                                                steps.implementation->name, steps.reason);
+  print("{:<12} {}: {}{}\n", "auto", chosen.implementation->name, chosen.reason, card);
 }
 
 void list_scenes() {
