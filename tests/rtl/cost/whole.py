@@ -50,7 +50,8 @@ def found(scene, family, hw, first):
         written(folder, scene, keep, first)
         sources = sorted(RTL.glob("*.sv"), key=lambda file: file.name != "voxmelt_pkg.sv")
         tool = TOOLS[family][0].replace(" -nolutram", "")
-        yosys(f"read_verilog -sv -D VOXMELT_BLOCKS {' '.join(map(str, sources))} pipeline.sv; {tool} -top pipeline; write_json {net}",
+        yosys(f"read_verilog -sv -D VOXMELT_BLOCKS {' '.join(map(str, sources))} pipeline.sv; hierarchy -top pipeline; "
+              f"setattr -set ram_style \"block\" *line_memory*/m:* *column_reverser*/m:*; {tool} -top pipeline; write_json {net}",
               folder, seconds=4 * 3600)
         modules = json.loads(net.read_text())["modules"]
     counts = counted(family, modules, "pipeline")
