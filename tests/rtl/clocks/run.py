@@ -48,7 +48,8 @@ LOOPS = """## Loops alone
 
 Registers that depend on themselves, and the logic between them. What lies outside of loops could
 have further registers, so these set the clock that a part can reach. The loops of a part stand
-together, with up to six seeds where the first is below 95 MHz. Parts that are not here have none.
+together, with up to six seeds where the first is below 95 MHz. No other part of the table above
+has any.
 """
 
 
