@@ -40,6 +40,7 @@ json family_json(const Family& f) {
   for (const MemoryShape& shape : f.lutram) lutram.push_back({shape.bits, shape.words, shape.luts});
   json result{{"name", f.name},
               {"bram_parts", f.bram_parts},
+              {"byte_bits", f.byte_bits},
               {"bram_shapes", shapes_json(f.bram)},
               {"uram_shapes", shapes_json(f.uram)},
               {"lutram_shapes", lutram},

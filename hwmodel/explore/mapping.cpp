@@ -10,10 +10,12 @@ namespace {
 
 std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits) {
+// Each byte of a part is written by itself. So bytes of words that lie behind others fill up what these leave.
+std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits, int byte) {
   std::int64_t fewest = -1;
   for (const MemoryShape& shape : shapes) {
-    const std::int64_t n = up(bits, shape.bits) * up(words, shape.words);
+    const std::int64_t together = std::min(byte, shape.bits);
+    const std::int64_t n = up(up(words, shape.words) * up(bits, together), shape.bits / together);
     if (fewest < 0 || n < fewest) fewest = n;
   }
   return fewest;
@@ -34,8 +36,8 @@ std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& f
 std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {
   std::vector<MemoryUse> ways;
   if (words <= f.deepest_lutram) ways.push_back({luts_to_hold(words, bits, f), 0, 0});
-  if (const std::int64_t n = fewest(f.bram, words, bits); n >= 0) ways.push_back({0, n, 0});
-  if (const std::int64_t n = fewest(f.uram, words, bits); n >= 0) ways.push_back({0, 0, n});
+  if (const std::int64_t n = fewest(f.bram, words, bits, f.byte_bits); n >= 0) ways.push_back({0, n, 0});
+  if (const std::int64_t n = fewest(f.uram, words, bits, f.byte_bits); n >= 0) ways.push_back({0, 0, n});
   return ways;
 }
 

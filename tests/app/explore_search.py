@@ -353,13 +353,19 @@ def lutram_of(f, words, bits):
                for b, w, luts in f["lutram_shapes"])
 
 
+def parts_of(words, bits, wide, deep, byte):
+    """Words that lie behind others fill up what these leave, byte by byte."""
+    rows_, bytes_ = ceil(words / deep), ceil(bits / byte)
+    return ceil(rows_ * bytes_ / (wide // byte))
+
+
 def ways(f, words, bits, times_):
     found = []
     if words <= f["deepest_lutram"]:
         found.append((times_ * lutram_of(f, words, bits), 0, 0))
     for at, shapes in ((1, f["bram_shapes"]), (2, f["uram_shapes"])):
         if shapes:
-            n = times_ * min(ceil(bits / b) * ceil(words / w) for b, w in shapes)
+            n = times_ * min(parts_of(words, bits, b, w, min(f["byte_bits"], b)) for b, w in shapes)
             found.append((0, n, 0) if at == 1 else (0, 0, n))
     return found
 

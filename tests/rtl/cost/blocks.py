@@ -5,7 +5,8 @@
   tests/rtl/cost/blocks.py --docs FILE       writes the page
 
 `voxmelt rtl` writes the pipelines. Yosys finds their memories, and puts each into blocks of 7 series, alone. The rule is
-that of `explore` with the shapes of the family: the fewest blocks, all of one shape.
+that of `explore` with the shapes of the family: the fewest blocks, all of one shape, where words that lie behind others
+fill up what these leave, byte by byte.
 """
 import argparse
 import collections
@@ -49,8 +50,9 @@ def memories_of(scene, settings, lanes, folder):
     return found
 
 
-def by_rule(width, words, shapes):
-    return min(-(-width // bits) * -(-words // deep) for bits, deep in shapes)
+def by_rule(width, words, memory):
+    up, byte = lambda a, b: -(-a // b), memory["byte_bits"]
+    return min(up(up(words, deep) * up(width, min(byte, bits)), bits // min(byte, bits)) for bits, deep in memory["bram_shapes"])
 
 
 def by_synthesis(width, words, folder):
@@ -74,7 +76,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--docs", type=Path, help="the page to write")
     options = parser.parse_args()
-    shapes = tomllib.loads((FAMILIES / "7series.toml").read_text())["memory"]["bram_shapes"]
+    memory = tomllib.loads((FAMILIES / "7series.toml").read_text())["memory"]
     synthesised, rows, wrong = {}, [], collections.Counter()
     with tempfile.TemporaryDirectory() as name:
         for scene, settings in SCENES.items():
@@ -83,14 +85,14 @@ def main():
                 for one in memories:
                     if one not in synthesised:
                         synthesised[one] = by_synthesis(*one, Path(name))
-                    if synthesised[one] != by_rule(*one, shapes):
+                    if synthesised[one] != by_rule(*one, memory):
                         wrong[one] += 1
                 sums = [sum(n * blocks(one) for one, n in memories.items())
-                        for blocks in (lambda one: by_rule(*one, shapes), synthesised.get)]
+                        for blocks in (lambda one: by_rule(*one, memory), synthesised.get)]
                 rows.append((scene, lanes, sum(memories.values()), *sums))
                 print(*rows[-1], flush=True)
     for (width, words), times in sorted(wrong.items()):
-        print(f"{words} words of {width} bits: {by_rule(width, words, shapes)} by the rule, {synthesised[width, words]} by synthesis, "
+        print(f"{words} words of {width} bits: {by_rule(width, words, memory)} by the rule, {synthesised[width, words]} by synthesis, "
               f"in {times} pipelines")
     lines = ["<!-- Written by tests/rtl/cost/blocks.py -->", "# Blocks of memory", "",
              "Memories of pipelines, in halves of a RAMB36E1: by the rule of `explore`, and by Yosys for 7 series,", "each alone.", "",
