@@ -10,7 +10,8 @@ namespace {
 
 std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-// Each byte of a part is written by itself. So bytes of words that lie behind others fill up what these leave.
+// Each byte of a part is written by itself. So bytes of words that lie behind others fill up what these
+// leave.
 std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits, int byte) {
   std::int64_t fewest = -1;
   for (const MemoryShape& shape : shapes) {
