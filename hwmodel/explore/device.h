@@ -38,8 +38,9 @@ struct StageCost {
 
 struct Family {
   std::string name, title;
-  int bram_parts = 1;  // parts of a block of BRAM; the shapes are those of one part
-  int byte_bits = 1;   // so many bits of a part are written together, or fewer where it is narrower
+  int bram_parts = 1;     // parts of a block of BRAM; the shapes are those of one part
+  int byte_bits = 1;      // so many bits of a part are written together, or fewer where it is narrower
+  int part_mux_bits = 1;  // a part weighs as much as a choice between two words of so many bits
   std::vector<MemoryShape> bram, uram, lutram;
   int mux_ways = 2, deepest_lutram = 1;
   int register_words = 1;

@@ -41,6 +41,7 @@ json family_json(const Family& f) {
   json result{{"name", f.name},
               {"bram_parts", f.bram_parts},
               {"byte_bits", f.byte_bits},
+              {"part_mux_bits", f.part_mux_bits},
               {"bram_shapes", shapes_json(f.bram)},
               {"uram_shapes", shapes_json(f.uram)},
               {"lutram_shapes", lutram},

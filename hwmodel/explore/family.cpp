@@ -40,9 +40,11 @@ LogicCost logic_of(scene::Reader& root, const char* key, const Given& given) {
 }
 
 void read_memories(scene::Reader& from, Family& f) {
-  from.knows(std::array{"bram_parts", "byte_bits", "bram_shapes", "uram_shapes", "lutram_shapes"});
+  from.knows(
+      std::array{"bram_parts", "byte_bits", "part_mux_bits", "bram_shapes", "uram_shapes", "lutram_shapes"});
   f.bram_parts = whole(from, "bram_parts", 1, 16);
   f.byte_bits = whole(from, "byte_bits", 1, 72);
+  f.part_mux_bits = whole(from, "part_mux_bits", 1, kWidest);
   for (const auto& [bits, words] : rows<2>(from, "bram_shapes")) f.bram.push_back({bits, words});
   for (const auto& [bits, words] : rows<2>(from, "uram_shapes")) f.uram.push_back({bits, words});
   for (const auto& [bits, words, luts] : rows<3>(from, "lutram_shapes", 1))

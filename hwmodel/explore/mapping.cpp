@@ -4,22 +4,27 @@
 #include <iterator>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace voxmelt::hwmodel::explore {
 namespace {
 
 std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-// Each byte of a part is written by itself. So bytes of words that lie behind others fill up what these
-// leave.
-std::int64_t fewest(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits, int byte) {
-  std::int64_t fewest = -1;
+// Parts of one shape, or -1. Words beyond those of a part lie in rows behind one another. Each byte of a part
+// is written by itself, so rows share parts, byte by byte. What a row more has to be chosen from weighs, too.
+std::int64_t parts_for(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits,
+                       const Family& f) {
+  std::int64_t parts = -1, least = 0;
   for (const MemoryShape& shape : shapes) {
-    const std::int64_t together = std::min(byte, shape.bits);
-    const std::int64_t n = up(up(words, shape.words) * up(bits, together), shape.bits / together);
-    if (fewest < 0 || n < fewest) fewest = n;
+    const std::int64_t rows = up(words, shape.words), byte = std::min(f.byte_bits, shape.bits);
+    const std::int64_t n = up(rows * up(bits, byte), shape.bits / byte);
+    const std::int64_t weight = n * f.part_mux_bits + (rows - 1) * bits;
+    if (parts >= 0 && std::pair(weight, n) >= std::pair(least, parts)) continue;
+    parts = n;
+    least = weight;
   }
-  return fewest;
+  return parts;
 }
 
 }  // namespace
@@ -37,8 +42,8 @@ std::int64_t luts_to_hold(std::int64_t words, std::int64_t bits, const Family& f
 std::vector<MemoryUse> ways_to_hold(std::int64_t words, std::int64_t bits, const Family& f) {
   std::vector<MemoryUse> ways;
   if (words <= f.deepest_lutram) ways.push_back({luts_to_hold(words, bits, f), 0, 0});
-  if (const std::int64_t n = fewest(f.bram, words, bits, f.byte_bits); n >= 0) ways.push_back({0, n, 0});
-  if (const std::int64_t n = fewest(f.uram, words, bits, f.byte_bits); n >= 0) ways.push_back({0, 0, n});
+  if (const std::int64_t n = parts_for(f.bram, words, bits, f); n >= 0) ways.push_back({0, n, 0});
+  if (const std::int64_t n = parts_for(f.uram, words, bits, f); n >= 0) ways.push_back({0, 0, n});
   return ways;
 }
 

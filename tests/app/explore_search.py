@@ -353,10 +353,14 @@ def lutram_of(f, words, bits):
                for b, w, luts in f["lutram_shapes"])
 
 
-def parts_of(words, bits, wide, deep, byte):
-    """Words that lie behind others fill up what these leave, byte by byte."""
-    rows_, bytes_ = ceil(words / deep), ceil(bits / byte)
-    return ceil(rows_ * bytes_ / (wide // byte))
+def parts_of(f, words, bits, shapes):
+    """Words that lie behind others fill up what these leave, byte by byte. A choice between words weighs, too."""
+    found = []
+    for wide, deep in shapes:
+        byte, rows_ = min(f["byte_bits"], wide), ceil(words / deep)
+        parts = ceil(rows_ * ceil(bits / byte) / (wide // byte))
+        found.append((parts * f["part_mux_bits"] + (rows_ - 1) * bits, parts))
+    return min(found)[1]
 
 
 def ways(f, words, bits, times_):
@@ -365,7 +369,7 @@ def ways(f, words, bits, times_):
         found.append((times_ * lutram_of(f, words, bits), 0, 0))
     for at, shapes in ((1, f["bram_shapes"]), (2, f["uram_shapes"])):
         if shapes:
-            n = times_ * min(parts_of(words, bits, b, w, min(f["byte_bits"], b)) for b, w in shapes)
+            n = times_ * parts_of(f, words, bits, shapes)
             found.append((0, n, 0) if at == 1 else (0, 0, n))
     return found
 

@@ -31,6 +31,9 @@ TEST(Explore, MemoriesTakeTheShapeThatFits) {
   ASSERT_EQ(deep.size(), 2U);  // too deep for LUTs
   EXPECT_EQ(deep[0].parts, 53);
   EXPECT_EQ(deep[1].uram, 4);
+  // 12694 words of 69 bits: 52 of 1024 x 18, with 13 rows. 512 x 36 takes 50, but 25 rows, and choosing among
+  // 12 more is dearer than 2 halves: 12 * 69 > 2 * 258.
+  EXPECT_EQ(ways_to_hold(12694, 69, family)[0].parts, 52);
   // 2048 words of 8 bits take one half of 2048 x 9.
   EXPECT_EQ(ways_to_hold(2048, 8, family)[0].parts, 1);
 }

@@ -5,8 +5,8 @@
   tests/rtl/cost/blocks.py --docs FILE       writes the page
 
 `voxmelt rtl` writes the pipelines. Yosys finds their memories, and puts each into blocks of 7 series, alone. The rule is
-that of `explore` with the shapes of the family: the fewest blocks, all of one shape, where words that lie behind others
-fill up what these leave, byte by byte.
+that of `explore` with the shapes of the family: blocks of one shape, few of them and few rows of words, where rows share
+blocks byte by byte.
 """
 import argparse
 import collections
@@ -51,8 +51,12 @@ def memories_of(scene, settings, lanes, folder):
 
 
 def by_rule(width, words, memory):
-    up, byte = lambda a, b: -(-a // b), memory["byte_bits"]
-    return min(up(up(words, deep) * up(width, min(byte, bits)), bits // min(byte, bits)) for bits, deep in memory["bram_shapes"])
+    up, ways = lambda a, b: -(-a // b), []
+    for bits, deep in memory["bram_shapes"]:
+        rows, byte = up(words, deep), min(memory["byte_bits"], bits)
+        parts = up(rows * up(width, byte), bits // byte)
+        ways.append((parts * memory["part_mux_bits"] + (rows - 1) * width, parts))
+    return min(ways)[1]
 
 
 def by_synthesis(width, words, folder):
