@@ -12,7 +12,7 @@ namespace {
 std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
 // Parts of one shape, or -1. Words beyond those of a part lie in rows behind one another. Each byte of a part
-// is written by itself, so rows share parts, byte by byte. What a row more has to be chosen from weighs, too.
+// is written by itself, so rows share parts, byte by byte. Rows weigh too, since one must be chosen.
 std::int64_t parts_for(const std::vector<MemoryShape>& shapes, std::int64_t words, std::int64_t bits,
                        const Family& f) {
   std::int64_t parts = -1, least = 0;
