@@ -59,6 +59,7 @@ PURPOSES = {
     "render/density": "amounts to a filtered field",
     "render/ground": "the ground's heights and rock",
     "render/light": "volumes of light",
+    "render/device": "the picture on a graphics card",
     "render/brick": "what bricks of places hold",
     "render/packet": "rays in packets, and pictures by them",
     "render/textures": "what a graphics processor draws from",

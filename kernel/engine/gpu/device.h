@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <span>
+#include <string>
 #include <variant>
 
 #include "kernel/automaton/step/stepper.h"
@@ -54,6 +56,17 @@ inline constexpr const char* kKernelNames[] = {
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 
+// A program of others, whose kernels work on the same memory: the picture's (render/device).
+struct OtherProgram {
+  std::string text;                    // OpenCL C, with the dialect
+  std::span<const char* const> names;  // of its kernels
+};
+// It is built for a device, and lives no longer than that.
+class OtherKernels {
+ public:
+  virtual ~OtherKernels() = default;
+};
+
 // Every function may throw DeviceError.
 class Device {
  public:
@@ -68,6 +81,14 @@ class Device {
 
   // Begins to run so many groups of items, after all that was asked for before.
   virtual void run(Kernel kernel, int groups, std::initializer_list<Argument> arguments) = 0;
+  // The same for a program of others. `kernel` is the number of its name. A device need not take any.
+  virtual std::unique_ptr<OtherKernels> build(const OtherProgram& /*program*/) {
+    throw DeviceError("the device takes no other programs");
+  }
+  virtual void run(const OtherKernels& /*kernels*/, std::size_t /*kernel*/, int /*groups*/,
+                   std::initializer_list<Argument> /*arguments*/) {
+    throw DeviceError("the device takes no other programs");
+  }
   // Hands over all that was asked for, without waiting.
   virtual void flush() = 0;
 

@@ -1,20 +1,21 @@
-# Writes a C++ source that holds the program as text, a literal for each file, as no compiler must take one of more than
-# 65536 characters: cmake -DFOLDER=program -DOUT=... -P embed.cmake
-set(text "")
-file(STRINGS "${FOLDER}/all.cl" lines REGEX "^#include")
+# Writes a C++ source that holds a program as text, a literal for each file, as no compiler must take one of more than
+# 65536 characters: cmake -DROOT=... -DALL=folder/all.cl -DHEADER=.../program_text.h -DSPACE=voxmelt::gpu -DOUT=...
+# -P embed.cmake. ALL includes the files, from ROOT, and the dialect comes before them.
+file(STRINGS "${ROOT}/${ALL}" lines REGEX "^#include")
+set(files kernel/engine/gpu/program/dialect_open_cl.cl)
 foreach(line ${lines})
-  string(REGEX REPLACE "^.*/([a-z_]+[.]cl)\"$" "\\1" file "${line}")
+  string(REGEX REPLACE "^#include \"(.*)\"$" "\\1" file "${line}")
   list(APPEND files ${file})
 endforeach()
 set(pieces "")
-foreach(file dialect_open_cl.cl ${files})
-  file(READ "${FOLDER}/${file}" piece)
+foreach(file ${files})
+  file(READ "${ROOT}/${file}" piece)
   string(APPEND pieces "    R\"program(${piece})program\",\n")
 endforeach()
 file(WRITE "${OUT}" "// Written by kernel/engine/gpu/embed.cmake.
-#include \"kernel/engine/gpu/program_text.h\"
+#include \"${HEADER}\"
 
-namespace voxmelt::gpu {
+namespace ${SPACE} {
 namespace {
 
 constexpr const char* kFiles[] = {
@@ -28,5 +29,5 @@ std::string program_text() {
   return all;
 }
 
-}  // namespace voxmelt::gpu
+}  // namespace ${SPACE}
 ")

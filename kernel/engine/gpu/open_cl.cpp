@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -75,6 +76,13 @@ class OpenClMemory final : public Memory {
 
 cl_mem of(const Memory& memory) { return static_cast<const OpenClMemory&>(memory).get(); }
 
+// A program that is built, with its kernels by number.
+struct OpenClKernels final : public OtherKernels {
+  Program program;
+  std::vector<KernelObject> kernels;
+  std::span<const char* const> names;
+};
+
 class OpenClQueue final : public Device {
  public:
   OpenClQueue(const OpenClDevice& about, const Constants* constants, int patience)
@@ -84,11 +92,8 @@ class OpenClQueue final : public Device {
     check(code, "open the device");
     queue_ = Queue(library().clCreateCommandQueue(context_.get(), device_, 0, &code));
     check(code, "open a queue");
-    build(constants == nullptr ? std::string() : specialised_options(*constants));
-    for (const char* name : kKernelNames) {
-      kernels_.emplace_back(library().clCreateKernel(program_.get(), name, &code));
-      check(code, name);
-    }
+    own_ = built(program_text(), kKernelNames,
+                 constants == nullptr ? std::string() : specialised_options(*constants));
   }
 
   std::unique_ptr<Memory> allocate(std::size_t bytes) override {
@@ -120,14 +125,14 @@ class OpenClQueue final : public Device {
   }
 
   void run(Kernel kernel, int groups, std::initializer_list<Argument> arguments) override {
-    const auto number = static_cast<std::size_t>(kernel);
-    cl_kernel object = kernels_[number].get();
-    cl_uint index = 0;
-    for (const Argument& argument : arguments) set(object, index++, argument, kKernelNames[number]);
-    const std::array<std::size_t, 2> local{32, 4}, global{32 * static_cast<std::size_t>(groups), 4};
-    check(library().clEnqueueNDRangeKernel(queue_.get(), object, 2, nullptr, global.data(), local.data(), 0,
-                                           nullptr, nullptr),
-          kKernelNames[number]);
+    start(*own_, static_cast<std::size_t>(kernel), groups, arguments);
+  }
+  std::unique_ptr<OtherKernels> build(const OtherProgram& program) override {
+    return built(program.text, program.names, {});
+  }
+  void run(const OtherKernels& kernels, std::size_t kernel, int groups,
+           std::initializer_list<Argument> arguments) override {
+    start(static_cast<const OpenClKernels&>(kernels), kernel, groups, arguments);
   }
 
   void flush() override { flush_queue(); }
@@ -160,6 +165,17 @@ class OpenClQueue final : public Device {
       if (waited > std::chrono::milliseconds(2)) std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   }
+  void start(const OpenClKernels& program, std::size_t kernel, int groups,
+             std::initializer_list<Argument> arguments) {
+    cl_kernel object = program.kernels[kernel].get();
+    cl_uint index = 0;
+    for (const Argument& argument : arguments) set(object, index++, argument, program.names[kernel]);
+    const std::array<std::size_t, 2> local{32, 4}, global{32 * static_cast<std::size_t>(groups), 4};
+    check(library().clEnqueueNDRangeKernel(queue_.get(), object, 2, nullptr, global.data(), local.data(), 0,
+                                           nullptr, nullptr),
+          program.names[kernel]);
+  }
+
   void flush_queue() const { check(library().clFlush(queue_.get()), "go on"); }
 
   void set(cl_kernel object, cl_uint index, const Argument& argument, const char* name) {
@@ -173,19 +189,31 @@ class OpenClQueue final : public Device {
     check(code, name);
   }
 
-  void build(const std::string& options) {
-    const std::string text = program_text();
+  std::unique_ptr<OpenClKernels> built(const std::string& text, std::span<const char* const> names,
+                                       const std::string& options) {
+    auto all = std::make_unique<OpenClKernels>();
+    all->names = names;
+    compile(all->program, text, options);
+    for (const char* name : names) {
+      cl_int code = CL_SUCCESS;
+      all->kernels.emplace_back(library().clCreateKernel(all->program.get(), name, &code));
+      check(code, name);
+    }
+    return all;
+  }
+
+  void compile(Program& program, const std::string& text, const std::string& options) {
     const char* begin = text.data();
     const std::size_t size = text.size();
     cl_int code = CL_SUCCESS;
-    program_ = Program(library().clCreateProgramWithSource(context_.get(), 1, &begin, &size, &code));
+    program = Program(library().clCreateProgramWithSource(context_.get(), 1, &begin, &size, &code));
     check(code, "take the program");
-    code = library().clBuildProgram(program_.get(), 1, &device_, ("-cl-std=CL1.2 -w" + options).c_str(),
+    code = library().clBuildProgram(program.get(), 1, &device_, ("-cl-std=CL1.2 -w" + options).c_str(),
                                     nullptr, nullptr);
     if (code == CL_SUCCESS) return;
     std::string said(4096, '\0');
     std::size_t used = 0;
-    library().clGetProgramBuildInfo(program_.get(), device_, CL_PROGRAM_BUILD_LOG, said.size(), said.data(),
+    library().clGetProgramBuildInfo(program.get(), device_, CL_PROGRAM_BUILD_LOG, said.size(), said.data(),
                                     &used);
     said.resize(std::min(said.size(), used));
     throw DeviceError("OpenCL: " + name_of(code) + ": " + said);
@@ -196,8 +224,7 @@ class OpenClQueue final : public Device {
   int patience_;
   Context context_;
   Queue queue_;
-  Program program_;
-  std::vector<KernelObject> kernels_;
+  std::unique_ptr<OpenClKernels> own_;
 };
 
 template <class T>

@@ -119,6 +119,11 @@ Stepper::Buffer Stepper::allocate(std::size_t bytes) {
   return device_->allocate(bytes);
 }
 
+StateOnDevice Stepper::where() const {
+  return {device_,           &shape_,         constants_.get(), flags_.get(),
+          amount_.now.get(), heat_.now.get(), bytes_,           groups_};
+}
+
 void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = changed; }
 
 void Stepper::change_sources(const rule::Parameters& parameters) { parameters_ = parameters; }

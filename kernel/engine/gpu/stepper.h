@@ -13,6 +13,7 @@
 #include "kernel/automaton/step/stepper.h"
 #include "kernel/engine/gpu/device.h"
 #include "kernel/engine/gpu/shape.h"
+#include "kernel/engine/gpu/state_on_device.h"
 
 namespace voxmelt::gpu {
 
@@ -31,6 +32,9 @@ class Stepper final : public step::DeviceStepper {
   void run_step(std::uint32_t step, const step::Irradiance* irradiance) override;
   void download_masks(state::Volume& volume) override;
   void download(state::Volume& volume, state::Ledger& ledger) override;
+
+  // Returns where the state lies, for who reads it there. It holds until the next step or upload.
+  StateOnDevice where() const;
 
  private:
   using Buffer = std::unique_ptr<Memory>;

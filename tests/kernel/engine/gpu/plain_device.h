@@ -3,11 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "kernel/engine/gpu/device.h"
+#include "tests/kernel/engine/gpu/plain_call.h"
 
 namespace voxmelt::gpu {
 
-std::unique_ptr<Device> plain_device(int threads);
+// `others` are the kernels of another program, in the order of its names.
+std::unique_ptr<Device> plain_device(int threads, std::span<const Call> others = {});
 
 }  // namespace voxmelt::gpu

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Bugs in the kernels for devices, in their host and in the run loop: does kernel_gpu_test find each of them?
+"""Bugs in the kernels for devices, in their host and in the run loop: does kernel_gpu_test find each of them? And
+those in the picture's kernels: does render_device_test?
 
     tests/kernel/engine/gpu/mutants/run.py --check   every replacement applies: quick, and one of ./test.sh
     tests/kernel/engine/gpu/mutants/run.py           builds and runs each; --only says which
 
-It wants a standing build: cmake --build --preset release --target kernel_gpu_test
+It wants a standing build: cmake --build --preset release --target kernel_gpu_test --target render_device_test
 """
 import argparse
 import pathlib
@@ -18,13 +19,16 @@ sys.path.insert(0, str(HERE.parents[3]))
 
 from overlay import ROOT, Build, Overlay, misfit, run
 
-PROGRAM = "tests/kernel/kernel_gpu_test"
+
+def program_of(mutant):
+    picture = mutant["file"].startswith("render/device/")
+    return "tests/render/render_device_test" if picture else "tests/kernel/kernel_gpu_test"
 
 
 def found_by(build, mutant):
     """The first test that fails, or nothing."""
     with tempfile.TemporaryDirectory() as folder:
-        program = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(PROGRAM)
+        program = Overlay(build, mutant, pathlib.Path(folder), "-O1").link(program_of(mutant))
         code, text = run([str(program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=*Kernels*:*Spare*"], 300)
     if code == 0:
         return ""
@@ -44,7 +48,7 @@ def main():
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith(("kernel/engine/gpu/", "kernel/run/simulation")))
+    build = Build(options.build, lambda source, *_: source.startswith(("kernel/engine/gpu/", "kernel/run/simulation", "render/device/")))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)

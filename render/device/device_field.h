@@ -1,0 +1,56 @@
+// The field that is drawn, made on a device from the state that lies there (docs/picture/field.md). It has
+// the numbers of DensityField, and no cell goes over the bus.
+//
+// All of it is made anew each time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kernel/automaton/state/grid.h"
+#include "kernel/engine/gpu/state_on_device.h"
+#include "kernel/scene/look.h"
+#include "kernel/scene/shape/terrain.h"
+#include "render/device/kernels.h"
+
+namespace voxmelt::render {
+
+class DeviceField {
+ public:
+  // The kernels are those of the state's device.
+  explicit DeviceField(std::shared_ptr<const PictureKernels> kernels) : kernels_(std::move(kernels)) {}
+
+  // Makes the field of a state. It throws gpu::DeviceError where the device has no room beside the state.
+  void update(const gpu::StateOnDevice& state, const scene::Look& look, const scene::Terrain& terrain);
+
+  // These fetch it, cell by cell, [z][y][x]: intensity, solid, liquid, obstacle, and heat or tone.
+  static constexpr int kChannels = 5;
+  std::vector<std::uint16_t> fetch(int channel) const;
+  std::vector<std::int32_t> fetch_ground() const;   // 1/4096 cell, by column
+  std::vector<std::int32_t> fetch_wetness() const;  // 0..4096
+
+ private:
+  using Buffer = std::unique_ptr<gpu::Memory>;
+
+  void resize(const gpu::StateOnDevice& state, int channels);
+  void find_columns(const gpu::StateOnDevice& state, const scene::Terrain& terrain, int passes);
+  void filter(const gpu::StateOnDevice& state, int liquid_passes, int solid_passes);
+  std::vector<std::int32_t> fetch_columns(int kind) const;
+  std::size_t places() const;
+  std::size_t columns_of_all() const {
+    return static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.z);
+  }
+
+  std::shared_ptr<const PictureKernels> kernels_;
+  state::Grid grid_{0, 0, 0};
+  int channels_ = 0;
+  Buffer now_, next_;            // all channels, in the lattice of program/lattice.cl
+  Buffer as_solid_, as_liquid_;  // the intensity by the solid's passes, and by the liquid's
+  Buffer columns_, levels_, next_levels_, heights_, tones_;
+  std::vector<std::int32_t> known_heights_;  // of the terrain, as the device has them
+};
+
+}  // namespace voxmelt::render

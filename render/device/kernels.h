@@ -1,0 +1,43 @@
+// The picture's kernels on a device (program/), which is one of OpenCL, or in the tests the same kernels as
+// C++.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+
+#include "kernel/engine/gpu/device.h"
+
+namespace voxmelt::render {
+
+enum class PictureKernel {
+  find_columns,
+  begin_levels,
+  smooth_levels,
+  put_matter,
+  fill_columns,
+  fill_rim,
+  filter_axis,
+  keep_intensity,
+  mix_intensity
+};
+inline constexpr const char* kPictureKernelNames[] = {"find_columns", "begin_levels",   "smooth_levels",
+                                                      "put_matter",   "fill_columns",   "fill_rim",
+                                                      "filter_axis",  "keep_intensity", "mix_intensity"};
+
+// The kernels, built for a device. Every function may throw gpu::DeviceError.
+class PictureKernels {
+ public:
+  explicit PictureKernels(std::shared_ptr<gpu::Device> device);
+
+  gpu::Device& device() const { return *device_; }
+  void run(PictureKernel kernel, int groups, std::initializer_list<gpu::Argument> arguments) const {
+    device_->run(*kernels_, static_cast<std::size_t>(kernel), groups, arguments);
+  }
+
+ private:
+  std::shared_ptr<gpu::Device> device_;
+  std::unique_ptr<gpu::OtherKernels> kernels_;
+};
+
+}  // namespace voxmelt::render

@@ -1,0 +1,25 @@
+#include "tests/render/device/plain_kernels.h"
+
+#include <iterator>
+#include <span>
+
+#include "render/device/kernels.h"
+
+namespace voxmelt::render {
+namespace {
+
+#include "tests/kernel/engine/gpu/plain_dialect.h"
+
+#include "render/device/program/all.cl"
+
+#define CALL(name) (&gpu::Unpacked<&(name)>::call)
+constexpr gpu::Call kCalls[] = {CALL(find_columns), CALL(begin_levels),   CALL(smooth_levels),
+                                CALL(put_matter),   CALL(fill_columns),   CALL(fill_rim),
+                                CALL(filter_axis),  CALL(keep_intensity), CALL(mix_intensity)};
+static_assert(std::size(kCalls) == std::size(kPictureKernelNames));
+
+}  // namespace
+
+std::span<const gpu::Call> plain_picture_kernels() { return kCalls; }
+
+}  // namespace voxmelt::render
