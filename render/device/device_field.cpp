@@ -13,7 +13,7 @@ namespace voxmelt::render {
 namespace {
 
 constexpr int kRim = kMaxPasses;                                   // as in program/lattice.cl
-constexpr int kColumnKinds = 9, kBed = 0, kOffset = 2, kFilm = 3;  // as in program/columns.cl
+constexpr int kColumnKinds = 9, kFilm = 0, kBed = 1, kOffset = 2;  // as in program/columns.cl
 constexpr int kHeatChannel = 4;
 enum Shows : std::int32_t { kNoHeat, kShowsHeat, kShowsTones };  // as in program/matter.cl
 
@@ -58,6 +58,11 @@ void DeviceField::resize(const gpu::StateOnDevice& state, int channels) {
   columns_ = on.allocate(kColumnKinds * columns);
   for (Buffer* buffer : {&levels_, &next_levels_, &heights_}) *buffer = on.allocate(columns);
   known_heights_.clear();
+  const gpu::Shape& s = *state.shape;
+  const std::vector<std::int64_t> numbers{grid.x,  grid.y,  grid.z,     s.row,      s.slice,
+                                          s.first, s.cells, s.bricks.x, s.bricks.y, s.bricks.z};
+  shape_ = on.allocate(sizeof(std::int64_t) * numbers.size());
+  on.write(*shape_, numbers.data(), sizeof(std::int64_t) * numbers.size());
   grid_ = grid;
   channels_ = channels;
 }
@@ -68,12 +73,12 @@ void DeviceField::find_columns(const gpu::StateOnDevice& state, const scene::Ter
     kernels_->device().write(*heights_, heights.data(), sizeof(std::int32_t) * heights.size());
   known_heights_ = std::move(heights);
   kernels_->run(PictureKernel::find_columns, state.groups,
-                {state.constants, state.flags, state.amount, heights_.get(), known_heights_.empty() ? 0 : 1,
+                {shape_.get(), state.flags, state.amount, heights_.get(), known_heights_.empty() ? 0 : 1,
                  columns_.get()});
-  kernels_->run(PictureKernel::begin_levels, state.groups, {state.constants, columns_.get(), levels_.get()});
+  kernels_->run(PictureKernel::begin_levels, state.groups, {shape_.get(), columns_.get(), levels_.get()});
   for (int pass = 0; pass < std::min(4 * passes, 12); ++pass) {
     kernels_->run(PictureKernel::smooth_levels, state.groups,
-                  {state.constants, levels_.get(), next_levels_.get()});
+                  {shape_.get(), levels_.get(), next_levels_.get()});
     levels_.swap(next_levels_);
   }
 }
@@ -82,20 +87,19 @@ void DeviceField::filter(const gpu::StateOnDevice& state, int liquid_passes, int
   const auto keep = [&](int pass) {
     for (const auto& [passes, kept] : {std::pair(solid_passes, &as_solid_), {liquid_passes, &as_liquid_}})
       if (passes == pass)
-        kernels_->run(PictureKernel::keep_intensity, state.groups,
-                      {state.constants, now_.get(), kept->get()});
+        kernels_->run(PictureKernel::keep_intensity, state.groups, {shape_.get(), now_.get(), kept->get()});
   };
   keep(0);
   for (int pass = 1; pass <= std::max({liquid_passes, solid_passes, 1}); ++pass) {
     for (const int axis : {2, 1, 0}) {
       kernels_->run(PictureKernel::filter_axis, state.groups,
-                    {state.constants, now_.get(), next_.get(), channels_, axis});
+                    {shape_.get(), now_.get(), next_.get(), channels_, axis});
       now_.swap(next_);
     }
     keep(pass);
   }
   kernels_->run(PictureKernel::mix_intensity, state.groups,
-                {state.constants, now_.get(), as_solid_.get(), as_liquid_.get()});
+                {shape_.get(), now_.get(), as_solid_.get(), as_liquid_.get()});
 }
 
 void DeviceField::update(const gpu::StateOnDevice& state, const scene::Look& look,
@@ -111,14 +115,15 @@ void DeviceField::update(const gpu::StateOnDevice& state, const scene::Look& loo
   }
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
+  passes_ = liquid_passes;
   find_columns(state, terrain, liquid_passes);
-  kernels_->run(PictureKernel::put_matter, state.groups,
-                {state.constants, state.flags, state.amount, state.heat, columns_.get(), tones_.get(), shows,
-                 now_.get()});
+  kernels_->run(
+      PictureKernel::put_matter, state.groups,
+      {shape_.get(), state.flags, state.amount, state.heat, columns_.get(), tones_.get(), shows, now_.get()});
   kernels_->run(PictureKernel::fill_columns, state.groups,
-                {state.constants, state.flags, state.amount, columns_.get(), levels_.get(),
+                {shape_.get(), state.flags, state.amount, columns_.get(), levels_.get(),
                  liquid_passes > 0 ? 1 : 0, now_.get()});
-  kernels_->run(PictureKernel::fill_rim, state.groups, {state.constants, now_.get(), channels_});
+  kernels_->run(PictureKernel::fill_rim, state.groups, {shape_.get(), now_.get(), channels_});
   filter(state, liquid_passes, solid_passes);
   kernels_->device().flush();
 }
@@ -141,21 +146,21 @@ std::vector<std::uint16_t> DeviceField::fetch(int channel) const {
   return cells;
 }
 
-std::vector<std::int32_t> DeviceField::fetch_columns(int kind) const {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(kColumnKinds) * columns_of_all());
+std::vector<std::int32_t> DeviceField::fetch_columns(int kinds) const {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(kinds) * columns_of_all());
   kernels_->device().read(*columns_, all.data(), sizeof(std::int32_t) * all.size());
-  const auto first =
-      all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(kind) * columns_of_all());
-  return {first, first + static_cast<std::ptrdiff_t>(columns_of_all())};
+  return all;
 }
 
 std::vector<std::int32_t> DeviceField::fetch_ground() const {
-  std::vector<std::int32_t> ground = fetch_columns(kBed);
-  const std::vector<std::int32_t> offsets = fetch_columns(kOffset);
-  for (std::size_t c = 0; c < ground.size(); ++c) ground[c] = ground[c] * 4096 + offsets[c];
+  const std::vector<std::int32_t> all = fetch_columns(kOffset + 1);
+  const std::size_t columns = columns_of_all();
+  std::vector<std::int32_t> ground(columns);
+  for (std::size_t c = 0; c < columns; ++c)
+    ground[c] = all[kBed * columns + c] * 4096 + all[kOffset * columns + c];
   return ground;
 }
 
-std::vector<std::int32_t> DeviceField::fetch_wetness() const { return fetch_columns(kFilm); }
+std::vector<std::int32_t> DeviceField::fetch_wetness() const { return fetch_columns(kFilm + 1); }
 
 }  // namespace voxmelt::render

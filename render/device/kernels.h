@@ -19,11 +19,28 @@ enum class PictureKernel {
   fill_rim,
   filter_axis,
   keep_intensity,
-  mix_intensity
+  mix_intensity,
+  prefilter_x,
+  prefilter_y,
+  make_levels,
+  find_shares,
+  find_blocks,
+  spread_blocks,
+  find_density,
+  sweep_u,
+  sweep_v,
+  begin_lamp,
+  pass_lamp,
+  soften_lamp,
+  draw_middles,
+  find_differing,
+  refine
 };
-inline constexpr const char* kPictureKernelNames[] = {"find_columns", "begin_levels",   "smooth_levels",
-                                                      "put_matter",   "fill_columns",   "fill_rim",
-                                                      "filter_axis",  "keep_intensity", "mix_intensity"};
+inline constexpr const char* kPictureKernelNames[] = {
+    "find_columns", "begin_levels",   "smooth_levels", "put_matter",   "fill_columns",   "fill_rim",
+    "filter_axis",  "keep_intensity", "mix_intensity", "prefilter_x",  "prefilter_y",    "make_levels",
+    "find_shares",  "find_blocks",    "spread_blocks", "find_density", "sweep_u",        "sweep_v",
+    "begin_lamp",   "pass_lamp",      "soften_lamp",   "draw_middles", "find_differing", "refine"};
 
 // The kernels, built for a device. Every function may throw gpu::DeviceError.
 class PictureKernels {

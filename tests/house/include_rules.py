@@ -50,7 +50,7 @@ ALLOWED = {
     "render/ground": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE],
     "render/packet": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", STATE, CPU, PICTURE, "render/image", "render/density",
                       "render/light", "render/ground", "render/brick"],
-    "render/device": ["kernel/engine/gpu", f"{STATE}/grid.h", "kernel/scene/look.h", "kernel/scene/shape/terrain.h", "render/density"],
+    "render/device": ["kernel/engine/gpu", f"{STATE}/grid.h", "kernel/scene/look.h", "kernel/scene/shape/terrain.h", PICTURE, "render/density", "render/ground", "render/image", "render/light", "render/packet"],
     "render/textures": [PICTURE, "render/density", "render/packet"],
     "render/reference": ["kernel/scene/look.h", "kernel/scene/shape/terrain.h", f"{STATE}/volume.h", PICTURE, "render/image", "render/density", "render/light",
                        "render/ground", "render/packet"],

@@ -12,7 +12,7 @@ namespace voxmelt::gpu {
 struct StateOnDevice {
   std::shared_ptr<Device> device;
   const Shape* shape;
-  const Memory *constants, *flags, *amount;
+  const Memory *flags, *amount;
   const Memory* heat;   // null in a scene without heat
   std::uint64_t taken;  // bytes of the device's memory that the stepper has
   int groups;           // as many as the stepper runs

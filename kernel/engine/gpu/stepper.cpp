@@ -120,8 +120,7 @@ Stepper::Buffer Stepper::allocate(std::size_t bytes) {
 }
 
 StateOnDevice Stepper::where() const {
-  return {device_,           &shape_,         constants_.get(), flags_.get(),
-          amount_.now.get(), heat_.now.get(), bytes_,           groups_};
+  return {device_, &shape_, flags_.get(), amount_.now.get(), heat_.now.get(), bytes_, groups_};
 }
 
 void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = changed; }

@@ -1,9 +1,9 @@
 // Columns, their ground and the levels of their puddles (docs/picture/field.md, sections 3 and 4). Numbers of a kind
 // lie together, by column.
-#define BED 0
-#define TOP_OF 1
+#define FILM 0  // the host reads the first three
+#define BED 1
 #define OFFSET_OF 2
-#define FILM 3
+#define TOP_OF 3
 #define WET 4
 #define FLOOR_OF 5
 #define END_OF 6

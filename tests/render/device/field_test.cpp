@@ -6,42 +6,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "kernel/engine/gpu/open_cl.h"
 #include "kernel/engine/gpu/stepper.h"
 #include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
 #include "render/density/density_field.h"
 #include "render/device/device_field.h"
 #include "tests/kernel/engine/gpu/hostile_world.h"
-#include "tests/kernel/engine/gpu/plain_device.h"
-#include "tests/render/device/plain_kernels.h"
+#include "tests/render/device/devices.h"
 #include "tests/rounds.h"
 
 namespace voxmelt::render {
 namespace {
 
 using worlds::Random;
-
-// A device with the picture's kernels.
-struct On {
-  std::shared_ptr<gpu::Device> device;
-  std::shared_ptr<const PictureKernels> kernels;
-};
-On plain(int threads) {
-  const std::shared_ptr<gpu::Device> device = gpu::plain_device(threads, plain_picture_kernels());
-  return {device, std::make_shared<PictureKernels>(device)};
-}
-const On& open_cl() {
-  static const std::shared_ptr<gpu::Device> device = gpu::open(gpu::open_cl_devices().front(), nullptr);
-  static const On on{device, std::make_shared<PictureKernels>(device)};
-  return on;
-}
-#define VOXMELT_NEEDS_A_DEVICE() \
-  if (gpu::open_cl_devices().empty()) GTEST_SKIP() << "no device of OpenCL here (Debian: pocl-opencl-icd)"
 
 // Returns where the two differ first, or nothing.
 template <class A, class B>
@@ -76,7 +56,7 @@ bool same_field(const DeviceField& actual, const state::Volume& volume, const sc
   return same;
 }
 
-bool same_field(const On& on, const rule::Parameters& parameters, const state::Volume& volume,
+bool same_field(const OnDevice& on, const rule::Parameters& parameters, const state::Volume& volume,
                 const scene::Look& look, const scene::Terrain& terrain, const std::string& what) {
   gpu::Stepper stepper(on.device, parameters, volume.grid);
   stepper.upload(volume, {});
@@ -107,7 +87,7 @@ scene::Terrain any_terrain(Random& random, const state::Grid& grid) {
   return terrain;
 }
 
-bool same_in_hostile_world(int seed, const On& on) {
+bool same_in_hostile_world(int seed, const OnDevice& on) {
   const worlds::HostileWorld world =
       worlds::hostile_world(seed, seed % 2 == 0 ? rule::Law::paper : rule::Law::viscous);
   Random random(static_cast<std::uint64_t>(seed) + 77);
@@ -117,7 +97,7 @@ bool same_in_hostile_world(int seed, const On& on) {
 }
 
 // Uneven ground with puddles and lumps on it, so that levels are smoothed and the ground is filled.
-bool same_in_landscape(int seed, const On& on) {
+bool same_in_landscape(int seed, const OnDevice& on) {
   Random random(static_cast<std::uint64_t>(seed) + 5);
   const state::Grid grid{random.between(1, 40), random.between(2, 24), random.between(1, 30)};
   state::Volume volume(grid);
@@ -173,14 +153,14 @@ TEST(OpenClField, SameInScenes) {
     const scene::Scene scene =
         scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
     run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});
-    const std::uint32_t middle = all_rounds() ? scene.steps / 3 : 60;
+    const std::uint32_t middle = all_rounds() ? scene.steps / 3 : 40;
     while (fast.steps_done() < middle) fast.step();
     state::Volume volume = fast.volume();
     state::Ledger ledger = fast.ledger();
     gpu::Stepper stepper(open_cl().device, scene.parameters, volume.grid);
     stepper.upload(volume, ledger);
     DeviceField field(open_cl().kernels);
-    for (int step = 0; step < 3; ++step) {
+    for (int step = 0; step < 2; ++step) {
       if (stepper.follows_rays(scene.parameters.heat) && scene.parameters.heat.is_visibility_step(middle))
         stepper.find_irradiance(middle);
       if (step > 0) stepper.run_step(middle + static_cast<std::uint32_t>(step), nullptr);

@@ -20,3 +20,4 @@
 #define LOOK(flag) (flag)
 #define RAISE(flag) ((flag) = 1)
 #define MUL_HIGH(a, b) mul_hi(a, b)
+#define LEADING_ZEROS(a) ((int)clz(a))

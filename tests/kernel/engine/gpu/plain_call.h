@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,6 +32,7 @@ inline void raise_to(int& number, int least) {
 inline unsigned char look(const unsigned char& flag) {
   return std::atomic_ref(const_cast<unsigned char&>(flag)).load(std::memory_order_relaxed);
 }
+inline int leading_zeros(std::uint64_t number) { return std::countl_zero(number); }
 inline void raise(unsigned char& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
 
 class PlainMemory final : public Memory {

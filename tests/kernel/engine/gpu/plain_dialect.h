@@ -38,3 +38,4 @@ ulong mul_high(ulong a, ulong b) { return static_cast<ulong>(Wide{a} * b >> 64);
 #define LOOK(flag) gpu::look(flag)
 #define RAISE(flag) gpu::raise(flag)
 #define MUL_HIGH(a, b) mul_high(a, b)
+#define LEADING_ZEROS(a) gpu::leading_zeros(a)

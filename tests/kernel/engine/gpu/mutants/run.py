@@ -48,7 +48,8 @@ def main():
     print("\n".join(problems) if problems else f"{len(mutants)} mutants apply")
     if problems or options.check:
         return 1 if problems else 0
-    build = Build(options.build, lambda source, *_: source.startswith(("kernel/engine/gpu/", "kernel/run/simulation", "render/device/")))
+    anew = ("kernel/engine/gpu/", "kernel/run/simulation", "render/device/", "tests/kernel/engine/gpu/plain_device")
+    build = Build(options.build, lambda source, *_: source.startswith(anew))
     missed = []
     for mutant in (one for one in mutants if re.search(options.only, one["name"])):
         found = found_by(build, mutant)

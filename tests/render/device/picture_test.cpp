@@ -1,0 +1,149 @@
+// A picture that is drawn on a device has the bytes of the host's: in random pictures at the edges of what
+// the definition allows, and in scenes in the middle of their melt, from all sides and in every setting.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/engine/gpu/stepper.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+#include "render/density/density_field.h"
+#include "render/device/device_picture.h"
+#include "render/packet/picture.h"
+#include "render/reference/picture_scene.h"
+#include "tests/render/device/devices.h"
+#include "tests/render/hostile_picture.h"
+#include "tests/render/picture_pairs.h"
+#include "tests/rounds.h"
+
+namespace voxmelt::render {
+namespace {
+
+// Heat is on, so that the device has it.
+rule::Parameters hot() {
+  rule::Parameters parameters;
+  parameters.heat.enabled = true;
+  return parameters;
+}
+
+// Returns where the light differs first, or nothing.
+std::string difference(const std::vector<LightBytes>& expected, const std::vector<LightBytes>& found) {
+  if (expected.size() != found.size()) return "another grid of light";
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::string cell = "cell of light " + std::to_string(i);
+    if (expected[i].lamp != found[i].lamp)
+      return cell + ": lamp " + std::to_string(expected[i].lamp) + " is " + std::to_string(found[i].lamp);
+    if (expected[i].open != found[i].open) return cell + ": openness";
+    if (expected[i].glow != found[i].glow) return cell + ": glow";
+  }
+  return {};
+}
+
+// Takes away some of the liquid, so that the ground there is dry.
+void dry_some(state::Volume& volume) {
+  for (int z = 0; z < volume.grid.z; ++z)
+    for (int y = 0; y < volume.grid.y; ++y)
+      for (int x = 0; x < volume.grid.x; ++x) {
+        if (!volume.liquid.test(x, y, z) || (x / 3 + z / 2) % 2 == 0) continue;
+        volume.liquid.set(x, y, z, false);
+        volume.amount[volume.at(x, y, z)] = volume.heat[volume.at(x, y, z)] = 0;
+      }
+}
+
+bool same_picture(const test::HostilePicture& picture, gpu::Stepper& stepper, DevicePicture& drawn) {
+  stepper.upload(picture.volume, {});
+  drawn.update(stepper.where(), picture.look, picture.light, picture.terrain);
+  DensityField field;
+  field.update(picture.volume, picture.look, picture.terrain);
+  const PictureScene scene(field, picture.look, picture.light, picture.terrain);
+  Picture expected;
+  expected.update(picture.volume, picture.look, picture.light, picture.terrain, 1);
+  const std::string light = difference(scene.light.cells(), drawn.fetch_light());
+  const std::string image = test::difference(expected.draw(picture.camera, picture.setting, 1),
+                                             drawn.draw(picture.camera, picture.setting));
+  EXPECT_EQ(light, "") << test::description(picture);
+  EXPECT_EQ(image, "") << test::description(picture);
+  return light.empty() && image.empty();
+}
+
+// Two states, one after the other.
+bool same_hostile_pictures(int seed, const OnDevice& on) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const auto number = static_cast<std::uint64_t>(seed);
+  test::HostilePicture picture =
+      seed % 4 == 3 ? test::hostile_orthographic_picture(number, 6000) : test::hostile_picture(number, 6000);
+  picture.look.clear = {};  // the host's
+  gpu::Stepper stepper(on.device, hot(), picture.volume.grid);
+  DevicePicture drawn(on.kernels);
+  if (!same_picture(picture, stepper, drawn)) return false;
+  dry_some(picture.volume);
+  return same_picture(picture, stepper, drawn);
+}
+
+// The views are from all sides, from above and below, and every fourth one is from near or within.
+scene::Camera view_of(const scene::Scene& scene, int view, int side) {
+  constexpr std::array kElevations{28.0, 5.0, 60.0, -30.0, 88.0};
+  scene::Camera camera = scene.camera;
+  camera.azimuth += 18 * view;
+  camera.elevation = kElevations[static_cast<std::size_t>(view) % kElevations.size()];
+  camera.distance = view % 4 == 3 ? 0.3 * scene.initial.grid.x : 0;
+  camera.width = camera.height = side;
+  return camera;
+}
+
+// Draws a scene that runs on the device, after some steps and after some more.
+void draw_scene(const std::string& name, const std::vector<int>& views, int side) {
+  const scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+  run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});
+  while (fast.steps_done() < 100) fast.step();
+  state::Volume volume = fast.volume();
+  gpu::Stepper stepper(open_cl().device, scene.parameters, volume.grid);
+  stepper.upload(volume, fast.ledger());
+  DevicePicture drawn(open_cl().kernels);
+  ASSERT_TRUE(device_draws(stepper.where(), scene.look)) << name;
+  Picture expected;
+  for (const int steps : {0, 2}) {
+    for (int step = 0; step < steps; ++step) fast.step();
+    stepper.upload(fast.volume(), fast.ledger());
+    drawn.update(stepper.where(), scene.look, scene.light, scene.terrain);
+    expected.update(fast.volume(), scene.look, scene.light, scene.terrain, 2);
+    for (const int view : views)
+      for (const Setting setting : kSettings) {
+        const scene::Camera camera = view_of(scene, view, side);
+        ASSERT_EQ(test::difference(expected.draw(camera, setting, 2), drawn.draw(camera, setting)), "")
+            << name << ", view " << view << ", " << kSettingNames[static_cast<std::size_t>(setting)]
+            << ", after " << steps << " steps more";
+      }
+  }
+}
+
+TEST(KernelsOfThePicture, SameHostilePictures) {
+  for (int seed = 0; seed < rounds(300); ++seed)
+    if (!same_hostile_pictures(seed, plain(1 + seed % 3))) FAIL();
+}
+
+TEST(OpenClPicture, SameHostilePictures) {
+  VOXMELT_NEEDS_A_DEVICE();
+  for (int seed = 0; seed < rounds(60); ++seed)
+    if (!same_hostile_pictures(seed, open_cl())) FAIL();
+}
+
+TEST(OpenClPicture, SameViewsOfScenes) {
+  VOXMELT_NEEDS_A_DEVICE();
+  if (!all_rounds()) {
+    for (const char* name : {"lava", "candle"}) draw_scene(name, {3, 9}, 48);
+    return;
+  }
+  std::vector<int> views;
+  for (int view = 0; view < 20; ++view) views.push_back(view);
+  for (const char* name : {"cello", "lava", "bunny", "goblet", "candle", "chocolate_nuts"})
+    draw_scene(name, views, 256);
+}
+
+}  // namespace
+}  // namespace voxmelt::render
