@@ -63,16 +63,26 @@ Film::Film(const scene::Scene& scene, const std::filesystem::path& folder, const
   picture_.stop_when(interrupted_for_long);
 }
 
-void Film::add_frame(const state::Volume& volume, std::uint32_t step) {
+std::optional<render::Image> Film::drawn_on_device(const run::Simulation& simulation) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (!on_device_.update(simulation.state_on_device(), scene_.look, scene_.light, scene_.terrain)) return {};
+  std::optional<render::Image> image = on_device_.draw(scene_.camera, setting_);
+  seconds_.on_device += seconds_since(begin);
+  return image;
+}
+
+void Film::add_frame(const run::Simulation& simulation, std::uint32_t step) {
   const auto waiting = std::chrono::steady_clock::now();
   check();
   drawing_.wait();
   seconds_.wait += seconds_since(waiting);
 
+  if (std::optional<render::Image> image = drawn_on_device(simulation))
+    return drawing_.put({step, std::move(image)});
   const auto begin = std::chrono::steady_clock::now();
-  picture_.update(volume, scene_.look, scene_.light, scene_.terrain, threads_);
+  picture_.update(simulation.volume(), scene_.look, scene_.light, scene_.terrain, threads_);
   seconds_.update += seconds_since(begin);
-  drawing_.put({step});
+  drawing_.put({step, {}});
 }
 
 void Film::keep(const std::vector<std::uint32_t>& steps) {
@@ -88,7 +98,12 @@ const std::vector<std::uint32_t>& Film::settle() {
 
 bool Film::is_slow() const { return slow_ || frame_bytes(scene_.camera) > kLargePicture; }
 
-void Film::draw(const Shot& shot) {
+void Film::draw(Shot& shot) {
+  if (shot.image) {
+    frames_.add(std::move(*shot.image), label_of(shot.step));
+    steps_.push_back(shot.step);
+    return;
+  }
   const auto begin = std::chrono::steady_clock::now();
   try {
     render::Image image = picture_.draw(scene_.camera, setting_, threads_);

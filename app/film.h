@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command_line.h"
 #include "app/report.h"
+#include "kernel/run/simulation.h"
 #include "kernel/scene/scene.h"
+#include "render/device/picture_on_device.h"
 #include "render/frames/frames.h"
 #include "render/frames/work_line.h"
 #include "render/packet/draw_picture.h"
@@ -33,7 +36,8 @@ class Film {
        render::Setting setting);
 
   // Takes over the state and returns. It waits for the last frame's drawing, because that reads the picture.
-  void add_frame(const state::Volume& volume, std::uint32_t step);
+  // Where a device has the state and can draw it, the frame is drawn there and then.
+  void add_frame(const run::Simulation& simulation, std::uint32_t step);
 
   // Says that frames of these steps are in the folder already, from an earlier part of the run. It is called
   // before the first add_frame().
@@ -58,13 +62,16 @@ class Film {
  private:
   struct Shot {
     std::uint32_t step = 0;
+    std::optional<render::Image> image;  // that a device has drawn
   };
-  void draw(const Shot& shot);
+  void draw(Shot& shot);
+  std::optional<render::Image> drawn_on_device(const run::Simulation& simulation);
 
   const scene::Scene& scene_;
   int threads_;
   render::Setting setting_;
   render::Picture picture_;
+  render::PictureOnDevice on_device_;
   render::Frames frames_;
   std::vector<std::uint32_t> steps_;  // steps of the frames
   std::atomic<bool> slow_ = false;

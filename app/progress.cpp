@@ -28,7 +28,7 @@ Progress::~Progress() {
   if (shown_ && terminal_) put_error("\n");
 }
 
-void Progress::show(std::uint32_t done, const state::Volume& volume) {
+void Progress::show(std::uint32_t done, const run::Simulation& simulation) {
   const auto now = Clock::now();
   const bool last = done >= steps_ && terminal_;
   const std::chrono::milliseconds between{!terminal_ ? 60'000 : shown_ ? 250 : 0};
@@ -38,6 +38,7 @@ void Progress::show(std::uint32_t done, const state::Volume& volume) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double rate = seconds > 0 ? (done - begun_at_) / seconds : 0;
   const double left = rate > 0 ? (steps_ - done) / rate : 0;
+  const state::Volume& volume = simulation.volume();
   const double liquid = static_cast<double>(volume.liquid.count());
   const double matter = liquid + static_cast<double>(volume.solid.count());
   print_error("{}step {}/{}  {:.1f} steps/s  liquid {:.0f} %  {} left{}", terminal_ ? "\r" : "", done, steps_,

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "kernel/automaton/state/volume.h"
+#include "kernel/run/simulation.h"
 
 namespace voxmelt::app {
 
@@ -16,7 +16,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(std::uint32_t done, const state::Volume& volume);
+  void show(std::uint32_t done, const run::Simulation& simulation);  // looks at its volume now and then
 
  private:
   using Clock = std::chrono::steady_clock;

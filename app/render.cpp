@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -25,9 +27,12 @@
 #include "app/visibility.h"
 #include "kernel/run/io/output_folder.h"
 #include "kernel/scene/text/ascii.h"
+#include "render/device/picture_on_device.h"
 #include "render/image/png.h"
 #include "render/packet/picture.h"
+#include "render/packet/scene_in_integers.h"
 #include "render/reference/print_trace.h"
+#include "render/rule/camera.h"
 
 namespace voxmelt::app {
 namespace {
@@ -42,6 +47,8 @@ struct RenderOptions {
   std::optional<double> azimuth, elevation;
   int turntable = 0;
 };
+
+using Draw = std::function<render::Image(const scene::Camera&)>;
 
 struct Pixel {
   int x = 0, y = 0;
@@ -135,30 +142,30 @@ void run_to(scene::Scene& scene, run::Simulation& simulation, const RenderOption
     journal.apply();
     simulation.step();
     stop_if_interrupted();
-    progress.show(simulation.steps_done(), simulation.volume());
+    progress.show(simulation.steps_done(), simulation);
   }
 }
 
-// Draws one picture, and then writes the report that `report()` gives.
+// Draws one picture, and then writes the report that `report()` gives. Depth and normals are of `picture`.
 template <class Report>
-void write_picture(const RenderOptions& options, const render::Picture& picture, const scene::Camera& camera,
-                   render::Setting setting, const Report& report) {
-  render::write_png(options.out, picture.draw(camera, setting, thread_count(options.common)));
-  const std::string near = write_surface(options, picture, camera, setting);
+void write_picture(const RenderOptions& options, const Draw& draw, const render::Picture* picture,
+                   const scene::Camera& camera, render::Setting setting, const Report& report) {
+  render::write_png(options.out, draw(camera));
+  const std::string near =
+      picture != nullptr ? write_surface(options, *picture, camera, setting) : std::string();
   if (!options.common.quiet) print("written: {}\n{}", options.out, near);
   write_report(options.common, report());
 }
 
 // Draws a turntable into `out`. If a view cannot be written, the earlier ones are kept.
 template <class Report>
-void write_turntable(const RenderOptions& options, io::OutputFolder& out, const render::Picture& picture,
-                     scene::Camera camera, render::Setting setting, const Report& report) {
+void write_turntable(const RenderOptions& options, io::OutputFolder& out, const Draw& draw,
+                     scene::Camera camera, const Report& report) {
   int made = 0;
   try {
     for (; made < options.turntable; ++made) {
       stop_if_interrupted();
-      render::write_png(out.partial() / fmt::format("view_{:03d}.png", made),
-                        picture.draw(camera, setting, thread_count(options.common)));
+      render::write_png(out.partial() / fmt::format("view_{:03d}.png", made), draw(camera));
       camera.azimuth += 360.0 / options.turntable;
     }
     out.commit();
@@ -176,6 +183,64 @@ void write_turntable(const RenderOptions& options, io::OutputFolder& out, const 
   if (!options.common.quiet) print("{} views written to {}\n", options.turntable, options.out);
   write_report(options.common, report());
 }
+
+// Draws a state on the device that has it, or on the host, with the same bytes.
+class Drawn {
+  // Counts as drawing on a device, if that succeeds.
+  template <class Work>
+  auto timed(const Work& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = work();
+    if (result)
+      seconds_.on_device += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+  }
+
+ public:
+  Drawn(const RenderOptions& options, const scene::Scene& scene, const run::Simulation& simulation,
+        render::Setting setting)
+      : options_(options), scene_(scene), simulation_(simulation), setting_(setting) {
+    if (wants_host()) update_host();
+    if (picture_ == nullptr && !timed([&] {
+          return on_device_.update(simulation.state_on_device(), scene.look, scene.light, scene.terrain);
+        }))
+      update_host();
+  }
+
+  // A device's picture is none of a camera that may stand inside.
+  bool camera_inside() const { return picture_ != nullptr && picture_->camera_inside(scene_.camera); }
+  const render::Picture* of_host() const { return picture_.get(); }
+  RunSeconds seconds() const { return seconds_; }
+
+  render::Image draw(const scene::Camera& camera) {
+    if (picture_ == nullptr) {
+      if (auto image = timed([&] { return on_device_.draw(camera, setting_); })) return std::move(*image);
+      update_host();  // the device has failed
+    }
+    return picture_->draw(camera, setting_, thread_count(options_.common));
+  }
+
+ private:
+  // Depth and normals are the host's, and so is the question where the camera stands.
+  bool wants_host() const {
+    const state::Grid& grid = scene_.initial.grid;
+    return !options_.depth.empty() || !options_.normals.empty() ||
+           picture::view_of(render::camera_in_integers(scene_.camera), {grid.x, grid.y, grid.z}).near <= 0;
+  }
+  void update_host() {
+    picture_ = std::make_unique<render::Picture>();
+    picture_->stop_when(interrupted);
+    picture_->update(simulation_.volume(), scene_.look, scene_.light, scene_.terrain,
+                     thread_count(options_.common));
+  }
+  const RenderOptions& options_;
+  const scene::Scene& scene_;
+  const run::Simulation& simulation_;
+  const render::Setting setting_;
+  std::unique_ptr<render::Picture> picture_;  // of the host, if that draws
+  render::PictureOnDevice on_device_;
+  RunSeconds seconds_;
+};
 
 int run_render(RenderOptions options) {
   settle_outputs(options);
@@ -195,23 +260,22 @@ int run_render(RenderOptions options) {
   run::Simulation simulation = make_simulation(scene, options.common);
   run_to(scene, simulation, options);
   warn_of_limit(scene, options.common, simulation);
-  const auto report = [&] { return report_json(scene, options.common, simulation, {}); };
   const render::Setting setting = setting_of(options.setting);
   if (options.trace) {
     render::print_trace(std::cout, simulation.volume(), scene.look, scene.light, scene.terrain, scene.camera,
                         setting, traced.x, traced.y);
-    write_report(options.common, report());
+    write_report(options.common, report_json(scene, options.common, simulation, {}));
     return kDone;
   }
-  render::Picture picture;
-  picture.stop_when(interrupted);
-  picture.update(simulation.volume(), scene.look, scene.light, scene.terrain, thread_count(options.common));
-  if (picture.camera_inside(scene.camera))
+  Drawn drawn(options, scene, simulation, setting);
+  if (drawn.camera_inside())
     warn(scene, options.common, {"the camera stands in matter or in the ground, and sees nothing else"});
+  const Draw draw = [&](const scene::Camera& camera) { return drawn.draw(camera); };
+  const auto report = [&] { return report_json(scene, options.common, simulation, drawn.seconds()); };
   if (out)
-    write_turntable(options, *out, picture, scene.camera, setting, report);
+    write_turntable(options, *out, draw, scene.camera, report);
   else
-    write_picture(options, picture, scene.camera, setting, report);
+    write_picture(options, draw, drawn.of_host(), scene.camera, setting, report);
   return kDone;
 }
 

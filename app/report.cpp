@@ -52,6 +52,7 @@ json seconds_json(const state::Seconds& steps, const RunSeconds& run) {
   for (const auto& row : state::Seconds::table()) result[std::string(row.name)] = steps.*row.value;
   result["update"] = run.update;
   result["render"] = run.render;
+  result["on_device"] = run.on_device;
   result["encode"] = run.encode;
   result["wait"] = run.wait;
   result["total"] = run.total;

@@ -18,6 +18,7 @@ struct RunSeconds {
   double encode = 0;  // pictures to PNG, summed over threads
   double wait = 0;    // steps stood still until pictures were done, the end of the run included
   double total = 0;
+  double on_device = 0;  // drawing where the state lies; then the first two have nothing of it
 };
 
 // Returns JSON text. `complete` says that every step that was asked for was done, and every frame made.

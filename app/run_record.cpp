@@ -124,6 +124,7 @@ std::string json_of(const RunRecord& record) {
               {"seconds",
                {record.seconds.update, record.seconds.render, record.seconds.encode, record.seconds.wait,
                 record.seconds.total}}};
+  if (record.seconds.on_device > 0) result["seconds"].push_back(record.seconds.on_device);
   if (!record.write.empty()) {
     result["write"] = record.write;
     result["write_every"] = record.write_every;
@@ -177,11 +178,12 @@ RunRecord run_record_of(const std::string& text, const std::filesystem::path& fi
     read_frames(object.at("frames"), record, file);
     const json& seen = object.at("watch");
     const auto seconds = object.at("seconds").get<std::vector<double>>();
-    if (seen.size() != 5 || seconds.size() != 5)
+    if (seen.size() != 5 || seconds.size() < 5 || seconds.size() > 6)
       checkpoint::fail(file, "its head: command.watch or command.seconds is no list of five");
     const auto place = [&](std::size_t i) { return whole<int>(seen.at(i), "watch", file); };
     record.seen = {place(0), place(1), place(2), place(3), whole<std::uint32_t>(seen.at(4), "watch", file)};
-    record.seconds = {seconds[0], seconds[1], seconds[2], seconds[3], seconds[4]};
+    record.seconds = {seconds[0], seconds[1], seconds[2],
+                      seconds[3], seconds[4], seconds.size() > 5 ? seconds[5] : 0};
     return record;
   } catch (const json::exception& error) {
     checkpoint::fail(file, std::string("its head: command: ") + error.what());

@@ -45,7 +45,8 @@ std::exception_ptr tried(Work&& work) {
 }
 
 RunSeconds sum_of(const RunSeconds& a, const RunSeconds& b) {
-  return {a.update + b.update, a.render + b.render, a.encode + b.encode, a.wait + b.wait, a.total + b.total};
+  return {a.update + b.update, a.render + b.render, a.encode + b.encode,
+          a.wait + b.wait,     a.total + b.total,   a.on_device + b.on_device};
 }
 
 bool holds_frames(const std::filesystem::path& partial) {
@@ -114,7 +115,7 @@ class Run {
   void show(std::uint32_t step) {
     if (film_->is_slow() && checkpoints_.affordable())
       checkpoint();  // an interrupt may lose this frame; then the run goes on from here
-    film_->add_frame(simulation_.volume(), step);
+    film_->add_frame(simulation_, step);
     watch_.look(simulation_.volume(), step);
   }
 
@@ -134,7 +135,7 @@ class Run {
       written_.add(simulation_, run_.scene);
       if (done < steps() && checkpoints_.due(interval_, done)) checkpoint();
       if (frame_is_due(record(), done)) show(done);
-      progress.show(done, simulation_.volume());
+      progress.show(done, simulation_);
     }
     if (simulation_.steps_done() < steps()) resumable_ = checkpoint() || io::holds_work(out().partial());
     written_.settle();

@@ -1,6 +1,7 @@
 #include "library/parts.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -96,6 +97,13 @@ void Simulation::Parts::save(const std::filesystem::path& place) const {
 
 Changes Simulation::Parts::changes(std::uint64_t since) {
   return versions_.changes(simulation.volume(), since);
+}
+
+std::optional<render::Image> Simulation::Parts::drawn_on_device(const scene::Camera& camera,
+                                                                render::Setting setting) {
+  const scene::Scene& scene = opened_.scene;
+  if (!on_device_.update(simulation.state_on_device(), scene.look, scene.light, scene.terrain)) return {};
+  return on_device_.draw(camera, setting);
 }
 
 render::Picture& Simulation::Parts::up_to_date() {

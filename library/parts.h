@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "kernel/run/checkpoint/checkpoint.h"
@@ -12,6 +13,7 @@
 #include "library/journal/journal.h"
 #include "library/journal/world.h"
 #include "library/version_numbers.h"
+#include "render/device/picture_on_device.h"
 #include "render/packet/picture.h"
 #include "render/textures/picture_textures.h"
 #include "voxmelt/voxmelt.h"
@@ -29,6 +31,8 @@ class Simulation::Parts {
 
   // Returns the picture of the present state. It keeps what has not changed since the last one.
   render::Picture& up_to_date();
+  // Draws the present state on the device that has it. There is no image if that cannot draw it.
+  std::optional<render::Image> drawn_on_device(const scene::Camera& camera, render::Setting setting);
   // Returns the textures of the present state. They are kept from their first call on.
   const render::PictureTextures& textures();
 
@@ -58,6 +62,7 @@ class Simulation::Parts {
   journal::WorldOf<library::ByHand> world_;
   journal::Reader timeline_;  // changes of the scene
   render::Picture picture_;
+  render::PictureOnDevice on_device_;
   render::PictureTextures textures_;
   library::VersionNumbers versions_;
 };

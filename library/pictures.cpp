@@ -85,6 +85,8 @@ Frame Simulation::render(const Picture& picture, const std::stop_token& stop) {
   const render::Setting setting = setting_of(picture.quality);
   return translated([&] {
     if (stop.stop_requested()) throw render::Stopped{};
+    if (!picture.depth)
+      if (const auto image = parts_->drawn_on_device(camera, setting)) return frame_of(*image, alignment);
     render::Picture& drawn = parts_->up_to_date();
     drawn.stop_when([stop] { return stop.stop_requested(); });
     Frame frame = frame_of(drawn.draw(camera, setting, parts_->threads), alignment);
@@ -123,10 +125,12 @@ std::optional<Hit> Simulation::pick(int x, int y, const Picture& picture) {
 
 void Simulation::draw(const std::filesystem::path& file, const Picture& picture) {
   const scene::Camera camera = camera_of(parts_->scene().camera, picture);
+  const render::Setting setting = setting_of(picture.quality);
   translated([&] {
+    if (const auto image = parts_->drawn_on_device(camera, setting)) return render::write_png(file, *image);
     render::Picture& drawn = parts_->up_to_date();
     drawn.stop_when({});
-    render::write_png(file, drawn.draw(camera, setting_of(picture.quality), parts_->threads));
+    render::write_png(file, drawn.draw(camera, setting, parts_->threads));
   });
 }
 

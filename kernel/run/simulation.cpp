@@ -7,6 +7,7 @@
 
 #include "kernel/automaton/state/connectivity.h"
 #include "kernel/engine/cpu/workers.h"
+#include "kernel/engine/gpu/stepper.h"
 #include "kernel/engine/scalar/by_hand.h"
 #include "kernel/engine/scalar/pieces.h"
 #include "kernel/engine/scalar/substeps.h"
@@ -109,6 +110,12 @@ bool Simulation::edit(const rule::Region& region, const Edit& by_hand) {
   if (host_ != nullptr) host_->tell_matter(rows, volume_);
   uploaded_ = false;
   return true;
+}
+
+std::optional<gpu::StateOnDevice> Simulation::state_on_device() const {
+  const auto* stepper = dynamic_cast<const gpu::Stepper*>(device_);
+  if (stepper == nullptr || !uploaded_) return std::nullopt;
+  return stepper->where();
 }
 
 bool Simulation::pour(const rule::Region& region, rule::Temperature temperature) {

@@ -6,12 +6,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/mid_run.h"
 #include "kernel/automaton/step/stepper.h"
+#include "kernel/engine/gpu/state_on_device.h"
 #include "kernel/engine/visibility/visibility.h"
 #include "kernel/run/implementations.h"
 
@@ -73,6 +75,10 @@ class Simulation {
   std::int64_t irradiance_capped() const { return counts().capped; }  // times that a cell was cut
   const state::Volume& volume() const { return fetch(), tell_changes(), volume_; }
   const state::Ledger& ledger() const { return fetch(), ledger_; }
+  // Returns where a device has this state, for who reads it there. It holds until the next step or change.
+  // There is none with a host stepper, and none before the device's first step, or after a hand has changed
+  // the volume.
+  std::optional<gpu::StateOnDevice> state_on_device() const;
   const rule::Parameters& parameters() const { return parameters_; }
   int threads() const { return threads_; }  // in use, if the implementation divides work among them
   std::int64_t loose_cells() const;  // solid cells of pieces that nothing holds, by a pass over all solids

@@ -59,18 +59,17 @@ void DeviceField::resize(const gpu::StateOnDevice& state, int channels) {
   for (Buffer* buffer : {&levels_, &next_levels_, &heights_}) *buffer = on.allocate(columns);
   known_heights_.clear();
   const gpu::Shape& s = *state.shape;
-  const std::vector<std::int64_t> numbers{grid.x,  grid.y,  grid.z,     s.row,      s.slice,
-                                          s.first, s.cells, s.bricks.x, s.bricks.y, s.bricks.z};
+  std::vector<std::int64_t> numbers{grid.x,  grid.y,  grid.z,     s.row,      s.slice,
+                                    s.first, s.cells, s.bricks.x, s.bricks.y, s.bricks.z};
   shape_ = on.allocate(sizeof(std::int64_t) * numbers.size());
-  on.write(*shape_, numbers.data(), sizeof(std::int64_t) * numbers.size());
+  kernels_->write(*shape_, std::move(numbers));
   grid_ = grid;
   channels_ = channels;
 }
 
 void DeviceField::find_columns(const gpu::StateOnDevice& state, const scene::Terrain& terrain, int passes) {
   std::vector<std::int32_t> heights = heights_of(terrain, grid_);
-  if (!heights.empty() && heights != known_heights_)
-    kernels_->device().write(*heights_, heights.data(), sizeof(std::int32_t) * heights.size());
+  if (!heights.empty() && heights != known_heights_) kernels_->write(*heights_, heights);
   known_heights_ = std::move(heights);
   kernels_->run(PictureKernel::find_columns, state.groups,
                 {shape_.get(), state.flags, state.amount, heights_.get(), known_heights_.empty() ? 0 : 1,
@@ -108,10 +107,8 @@ void DeviceField::update(const gpu::StateOnDevice& state, const scene::Look& loo
   const std::int32_t shows = look.glow && state.heat != nullptr ? kShowsHeat : tones ? kShowsTones : kNoHeat;
   resize(state, shows == kNoHeat ? kHeatChannel : kHeatChannel + 1);
   if (tones) {
-    const std::vector<std::int32_t> numbers(tones->begin(), tones->end());
-    const std::size_t bytes = sizeof(std::int32_t) * numbers.size();
-    if (!tones_) tones_ = kernels_->device().allocate(bytes);
-    kernels_->device().write(*tones_, numbers.data(), bytes);
+    if (!tones_) tones_ = kernels_->device().allocate(sizeof(std::int32_t) * tones->size());
+    kernels_->write(*tones_, std::vector<std::int32_t>(tones->begin(), tones->end()));
   }
   const int liquid_passes = std::clamp(look.smooth, 0, kMaxPasses);
   const int solid_passes = std::clamp(look.smooth_solid, 0, kMaxPasses);
@@ -131,8 +128,8 @@ void DeviceField::update(const gpu::StateOnDevice& state, const scene::Look& loo
 std::vector<std::uint16_t> DeviceField::fetch(int channel) const {
   std::vector<std::uint16_t> cells(grid_.cells());
   if (channel >= channels_) return cells;
-  std::vector<std::uint16_t> all(places() * static_cast<std::size_t>(channels_));
-  kernels_->device().read(*now_, all.data(), 2 * all.size());
+  const std::vector<std::uint16_t> all =
+      kernels_->read<std::uint16_t>(*now_, places() * static_cast<std::size_t>(channels_));
   const auto wide = static_cast<std::size_t>(grid_.x) + 2 * kRim,
              high = static_cast<std::size_t>(grid_.y) + 2 * kRim;
   for (int z = 0; z < grid_.z; ++z)
@@ -147,9 +144,7 @@ std::vector<std::uint16_t> DeviceField::fetch(int channel) const {
 }
 
 std::vector<std::int32_t> DeviceField::fetch_columns(int kinds) const {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(kinds) * columns_of_all());
-  kernels_->device().read(*columns_, all.data(), sizeof(std::int32_t) * all.size());
-  return all;
+  return kernels_->read<std::int32_t>(*columns_, static_cast<std::size_t>(kinds) * columns_of_all());
 }
 
 std::vector<std::int32_t> DeviceField::fetch_ground() const {

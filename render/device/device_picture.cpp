@@ -36,16 +36,16 @@ void DevicePicture::make_room(Buffer& buffer, std::size_t& has, std::size_t want
 }
 
 template <class Number>
-void DevicePicture::write(Buffer& to, const std::vector<Number>& numbers) {
-  const std::size_t bytes = sizeof(Number) * numbers.size();
-  if (!to) to = kernels_->device().allocate(bytes);
-  kernels_->device().write(*to, numbers.data(), bytes);
+void DevicePicture::write(Buffer& to, std::vector<Number> numbers) {
+  if (!to) to = kernels_->device().allocate(sizeof(Number) * numbers.size());
+  kernels_->write(*to, std::move(numbers));
 }
 
 void DevicePicture::update(const gpu::StateOnDevice& state, const scene::Look& look,
                            const scene::Light& light, const scene::Terrain& terrain) {
   const bool same = terrain_ && *terrain_ == terrain && scene_look_ == look && scene_light_ == light &&
                     grid_ == state.shape->grid;
+  if (same && version_ == state.version) return;
   terrain_.reset();  // until all of it is done
   groups_ = kernels_->device().most_groups();
   field_.update(state, look, terrain);
@@ -66,6 +66,7 @@ void DevicePicture::update(const gpu::StateOnDevice& state, const scene::Look& l
   find_levels();
   find_light();
   kernels_->device().flush();
+  version_ = state.version;
   terrain_ = terrain;
   scene_look_ = look;
   scene_light_ = light;
@@ -154,15 +155,14 @@ Image DevicePicture::draw(const scene::Camera& scene_camera, Setting setting) {
          ground_numbers_.get(), texels_.get(), list_.get(), count_.get(), best ? 32 : 8, image_.get()});
   }
   Image image(static_cast<int>(camera.width), static_cast<int>(camera.height));
-  kernels_->device().read(*image_, image.pixels.data(), sizeof(Rgb) * pixels);
+  image.pixels = kernels_->read<Rgb>(*image_, pixels);
   return image;
 }
 
 std::vector<LightBytes> DevicePicture::fetch_light() const {
   const picture::Vector count = picture::light_cells({grid_.x, grid_.y, grid_.z});
   const auto cells = static_cast<std::size_t>(count.x * count.y * count.z);
-  std::vector<std::uint8_t> bytes(kLightBytes * cells);
-  kernels_->device().read(*light_, bytes.data(), bytes.size());
+  const std::vector<std::uint8_t> bytes = kernels_->read<std::uint8_t>(*light_, kLightBytes * cells);
   std::vector<LightBytes> all(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     const std::uint8_t* from = bytes.data() + kLightBytes * i;

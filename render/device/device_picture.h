@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -44,7 +45,6 @@ class DevicePicture {
   // Draws the state of the last update, also after the device has gone on.
   Image draw(const scene::Camera& camera, Setting setting);
 
-  const gpu::Device& device() const { return kernels_->device(); }
   // Fetches the bytes of cells of light, as LightVolume has them.
   std::vector<LightBytes> fetch_light() const;
 
@@ -58,7 +58,7 @@ class DevicePicture {
     kernels_->run(kernel, groups_, arguments);
   }
   template <class Number>
-  void write(Buffer& to, const std::vector<Number>& numbers);
+  void write(Buffer& to, std::vector<Number> numbers);
   void make_room(Buffer& buffer, std::size_t& has, std::size_t wanted);
 
   std::shared_ptr<const PictureKernels> kernels_;
@@ -66,7 +66,8 @@ class DevicePicture {
   int groups_ = 1;
   scene::Look scene_look_;
   scene::Light scene_light_;
-  std::optional<scene::Terrain> terrain_;  // of the last update
+  std::optional<scene::Terrain> terrain_;  // of the last update, which was of this version
+  std::uint64_t version_ = 0;
   state::Grid grid_{0, 0, 0};
   picture::Look look_;
   picture::Paint paint_;

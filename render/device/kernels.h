@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "kernel/engine/gpu/device.h"
 
@@ -51,10 +53,28 @@ class PictureKernels {
   void run(PictureKernel kernel, int groups, std::initializer_list<gpu::Argument> arguments) const {
     device_->run(*kernels_, static_cast<std::size_t>(kernel), groups, arguments);
   }
+  template <class Number>
+  void write(gpu::Memory& to, std::vector<Number> numbers) const {
+    const auto held = std::make_shared<std::vector<Number>>(std::move(numbers));
+    in_flight_ = held;
+    device_->write(to, held->data(), sizeof(Number) * held->size());
+    in_flight_.reset();
+  }
+  template <class Number>
+  std::vector<Number> read(const gpu::Memory& from, std::size_t count) const {
+    const auto held = std::make_shared<std::vector<Number>>(count);
+    in_flight_ = held;
+    device_->read(from, held->data(), sizeof(Number) * count);
+    in_flight_.reset();
+    return std::move(*held);
+  }
 
  private:
   std::shared_ptr<gpu::Device> device_;
   std::unique_ptr<gpu::OtherKernels> kernels_;
+  // Holds what is being sent or fetched. A device that is lost may still write there, so it lives as long as
+  // we do.
+  mutable std::shared_ptr<void> in_flight_;
 };
 
 }  // namespace voxmelt::render

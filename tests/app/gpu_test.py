@@ -121,6 +121,53 @@ class Runs(unittest.TestCase):
         self.run_to("--resume", "killed", "--implementation", "gpu")
         self.assertEqual(self.outcome("killed"), self.outcome("straight"))
 
+    def on_device(self, report):
+        return json.loads((self.folder / report).read_text())["seconds"]["on_device"]
+
+    # The first frame is that of a state which the device does not have yet.
+    def test_frames_are_drawn_where_the_state_is(self):
+        scene = write(self.folder, SMALL)
+        for name, look, by_device in (("usual", "look.glow=false", True), ("glowing", "look.glow=true", True),
+                                      ("clear", "look.clear=[4,4,4]", False)):
+            with self.subTest(look=look):
+                self.run_to(scene, "--set", look, "--out", f"{name}_host", "--implementation", "reference")
+                self.run_to(scene, "--set", look, "--out", f"{name}_device", "--implementation", "gpu")
+                self.assertEqual(self.outcome(f"{name}_device"), self.outcome(f"{name}_host"))
+                self.assertEqual(self.on_device(f"{name}_host/report.json"), 0)
+                self.assertEqual(self.on_device(f"{name}_device/report.json") > 0, by_device)
+        frames = [(self.folder / f"usual_device/frames/frame_{step:05}.png").read_bytes() for step in (0, 2)]
+        self.assertNotEqual(*frames, "a picture of what does not change shows little")
+
+    def rendered(self, *arguments, **more):
+        result = voxmelt("render", self.folder / "scene.toml", "--steps", "3", "--quiet", *arguments, cwd=self.folder,
+                         env=with_environment(**more))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_pictures_of_render(self):
+        write(self.folder, SMALL)
+        for setting, more, by_device in (("fast", [], True), ("normal", [], True), ("best", [], True),
+                                         ("normal", ["--normals", "normals.png"], False),
+                                         ("normal", ["--set", "camera.distance=2"], False)):
+            with self.subTest(setting=setting, more=more):
+                for who in ("reference", "gpu"):
+                    self.rendered("--setting", setting, *more, "--implementation", who, "--out", f"{who}.png", "--report", f"{who}.json")
+                self.assertEqual((self.folder / "gpu.png").read_bytes(), (self.folder / "reference.png").read_bytes())
+                self.assertEqual(self.on_device("gpu.json") > 0, by_device)
+        for who in ("reference", "gpu"):
+            self.rendered("--turntable", "3", "--implementation", who, "--out", who)
+        for view in range(3):
+            name = f"view_{view:03}.png"
+            self.assertEqual((self.folder / "gpu" / name).read_bytes(), (self.folder / "reference" / name).read_bytes())
+
+    # The state has its room, and the picture beside it has none.
+    def test_too_little_memory_for_a_picture(self):
+        write(self.folder, SMALL)
+        larger = ["--set", "grid.size=[100,40,100]"]
+        self.rendered(*larger, "--implementation", "reference", "--out", "host.png")
+        self.rendered(*larger, "--implementation", "gpu", "--out", "device.png", "--report", "report.json", VOXMELT_DEVICE_MEMORY="10")
+        self.assertEqual((self.folder / "device.png").read_bytes(), (self.folder / "host.png").read_bytes())
+        self.assertEqual(self.on_device("report.json"), 0)
+
     def test_bench(self):
         scene = write(self.folder, SMALL)
         result = voxmelt("bench", "--quick", "--scenes", scene, "--from", "2", "--implementation", "gpu", "--threads", "1",

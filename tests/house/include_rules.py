@@ -99,7 +99,7 @@ ALLOWED = {
     # What strangers include: the standard library only.
     "include/voxmelt": [],
     "library": ["include/voxmelt", "library/journal", PARAMETERS, STATE, "kernel/scene", "kernel/scene/text", "kernel/run", "kernel/run/trial", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening",
-                CPU, "render/cells", "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
+                CPU, "render/cells", "render/device/picture_on_device.h", "render/image", "render/packet", "render/textures", f"{PICTURE}/camera.h"],
     "python": ["include/voxmelt"],
     "examples": ["include/voxmelt"],
     # The page's server: all work is done by the library.
@@ -109,7 +109,7 @@ ALLOWED = {
     "app/runs": ["app", "report/runs", "kernel/scene", "kernel/scene/text", "kernel/run/io", "kernel/run/checkpoint", "kernel/run/opening"],
     "app": ["library/journal", "render/density/density_field.h", "render/density/values.h", "include/voxmelt/errors.h", "library/by_hand.h", "kernel/scene/text/ascii.h", "kernel/scene/text/suggestion.h", CPU, VISIBILITY, "render/visibility", "accuracy", "accuracy/front", "measure", "report/accuracy", "report/bench", "report/hardware", PIPELINE, "hwmodel/pipeline/streams", "hwmodel/pipeline/check",
             "hwmodel/pipeline/faults", "hwmodel/pipeline/report", "hwmodel/caster/check", "hwmodel/caster/faults", "hwmodel/caster/report", "hwmodel/explore", "hwmodel/machine", "hwmodel/rtl/host", "hwmodel/rtl/write", "hwmodel/check/channel_trace.h",
-            "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/scene/shape/heightfield.h", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/image",
+            "hwmodel/machine/presets", "hwmodel/memory", STATE, f"{STEP}/stepper.h", "kernel/scene", "kernel/scene/shape/heightfield.h", "kernel/run", "kernel/run/checkpoint", "kernel/run/io", "kernel/run/opening", "kernel/run/trial", "render/device/picture_on_device.h", "render/image",
             "render/frames", "render/packet", f"{PICTURE}/camera.h", "render/reference/print_trace.h"],
 }
 # Header of a third party (its beginning) -> folders, or single files, that may include it. The rest is the standard library's.

@@ -229,6 +229,33 @@ TEST_F(ByHand, ThePictureAndWhoeverAsksSeeIt) {
   EXPECT_EQ(simulation.render().rgb, fresh.render().rgb);
 }
 
+// A device draws the states that it has, and the host those that a hand has changed.
+TEST_F(ByHand, ADeviceDrawsTheSamePictures) {
+  const std::vector<Implementation> found = devices();
+  if (found.empty()) GTEST_SKIP() << "no device of OpenCL here (Debian: pocl-opencl-icd)";
+  Options options;
+  options.implementation = found.front().name;
+  Simulation device(file, options), host(file);
+  Picture picture;
+  picture.width = picture.height = 48;
+  const auto both = [&](const auto& change) {
+    change(device);
+    change(host);
+    EXPECT_EQ(device.render(picture).rgb, host.render(picture).rgb);
+    picture.azimuth = picture.azimuth.value_or(10) + 35;
+    EXPECT_EQ(device.render(picture).rgb, host.render(picture).rgb) << "from another side";
+    return host.render(picture).rgb;
+  };
+  const auto begin = both([](Simulation&) {});
+  both([](Simulation& one) { one.step(3); });
+  both([](Simulation& one) { one.carve({10, 5, 10}, 2); });
+  both([](Simulation& one) { one.pour({40, 6, 10}, 3, 0.8); });
+  const auto end = both([](Simulation& one) { one.step(2); });
+  both([](Simulation& one) { one.restart(); });
+  both([](Simulation& one) { one.step(5); });
+  EXPECT_NE(begin, end);
+}
+
 TEST_F(ByHand, ACheckpointAfterItGoesOn) {
   Simulation simulation(file);
   simulation.step(5);

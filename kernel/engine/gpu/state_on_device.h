@@ -13,9 +13,10 @@ struct StateOnDevice {
   std::shared_ptr<Device> device;
   const Shape* shape;
   const Memory *flags, *amount;
-  const Memory* heat;   // null in a scene without heat
-  std::uint64_t taken;  // bytes of the device's memory that the stepper has
-  int groups;           // as many as the stepper runs
+  const Memory* heat;     // null in a scene without heat
+  std::uint64_t taken;    // bytes of the device's memory that the stepper has
+  int groups;             // as many as the stepper runs
+  std::uint64_t version;  // no other state of this process has it
 };
 
 }  // namespace voxmelt::gpu

@@ -1,6 +1,7 @@
 #include "kernel/engine/gpu/stepper.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -26,6 +27,11 @@ bool has_transients(const rule::Parameters& p) {
 }
 bool may_count(const rule::Parameters& p) {
   return !is_paper(p) && (p.flow.viscous.counts_substeps() || p.flow.viscous.relaxes());
+}
+
+std::uint64_t new_version() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
 }
 
 std::int32_t as_int(std::int64_t number) { return static_cast<std::int32_t>(number); }
@@ -120,7 +126,7 @@ Stepper::Buffer Stepper::allocate(std::size_t bytes) {
 }
 
 StateOnDevice Stepper::where() const {
-  return {device_, &shape_, flags_.get(), amount_.now.get(), heat_.now.get(), bytes_, groups_};
+  return {device_, &shape_, flags_.get(), amount_.now.get(), heat_.now.get(), bytes_, groups_, version_};
 }
 
 void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = changed; }
@@ -128,6 +134,7 @@ void Stepper::tell_irradiance(const state::ChangedRows& changed) { new_light_ = 
 void Stepper::change_sources(const rule::Parameters& parameters) { parameters_ = parameters; }
 
 void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
+  version_ = new_version();
   const Packed& state = in_flight(packed(volume, shape_));
   const std::size_t bytes = 2 * state.amount.size();
   device_->write(*flags_, state.flags.data(), state.flags.size());
@@ -194,6 +201,7 @@ void Stepper::collect_books() {
 }
 
 void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
+  version_ = new_version();
   const step::Cadence cadence = count_substeps();
   // Under the paper's law, spread clears what melt found.
   if (transient_ && !is_paper(parameters_))

@@ -68,7 +68,8 @@ class Stepper final : public step::DeviceStepper {
   rule::Parameters parameters_;
   Shape shape_;
   int groups_;
-  std::uint64_t bytes_ = 0;  // taken on the device
+  std::uint64_t bytes_ = 0;    // taken on the device
+  std::uint64_t version_ = 0;  // of the state there
   Buffer constants_, tables_, flags_, transient_, pattern_, irradiance_;
   Twice amount_, energy_, heat_;
   Buffer run_, records_, leveling_, impetus_, change_;

@@ -2,58 +2,17 @@
 // lost.
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <string>
 
-#include "tests/kernel/engine/gpu/plain_device.h"
+#include "tests/kernel/engine/gpu/failing_device.h"
 #include "tests/kernel/engine/gpu/same_light.h"
 
 namespace voxmelt::gpu {
 namespace {
 
 using namespace worlds;
-
-enum class Failure { refuses, is_lost };
-
-// Does what it is asked for so many times.
-class Failing final : public Device {
- public:
-  Failing(int times, Failure how) : device_(plain_device(1)), left_(times), how_(how) {}
-  std::unique_ptr<Memory> allocate(std::size_t bytes) override { return count(), device_->allocate(bytes); }
-  void write(Memory& to, const void* from, std::size_t bytes) override {
-    count();
-    device_->write(to, from, bytes);
-  }
-  void read(const Memory& from, void* to, std::size_t bytes) override {
-    count();
-    device_->read(from, to, bytes);
-  }
-  void clear(Memory& memory, std::size_t bytes) override {
-    count();
-    device_->clear(memory, bytes);
-  }
-  void run(Kernel kernel, int groups, std::initializer_list<Argument> arguments) override {
-    count();
-    device_->run(kernel, groups, arguments);
-  }
-  void flush() override {}
-  int most_groups() const override { return 7; }
-  std::uint64_t memory() const override { return device_->memory(); }
-  std::uint64_t largest_piece() const override { return device_->largest_piece(); }
-
- private:
-  void count() {
-    if (left_-- > 0) return;
-    if (how_ == Failure::is_lost) throw step::DeviceLost("it does not answer");
-    throw DeviceError("it refuses");
-  }
-  std::unique_ptr<Device> device_;
-  int left_;
-  Failure how_;
-};
 
 struct Told {
   int times = 0;
@@ -64,7 +23,8 @@ step::Implementation failing(int times, Failure how, Told& told) {
   step::Implementation device{
       "device", "",
       [times, how](const Parameters& p, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
-        return std::make_unique<Stepper>(std::make_shared<Failing>(times, how), p, grid);
+        return std::make_unique<Stepper>(std::make_shared<FailingDevice>(plain_device(1), times, how), p,
+                                         grid);
       }};
   device.spare = &implementation("reference");
   device.told = [&told](const DeviceError& why) {
