@@ -67,6 +67,7 @@ std::optional<render::Image> Film::drawn_on_device(const run::Simulation& simula
   const auto begin = std::chrono::steady_clock::now();
   if (!on_device_.update(simulation.state_on_device(), scene_.look, scene_.light, scene_.terrain)) return {};
   std::optional<render::Image> image = on_device_.draw(scene_.camera, setting_);
+  if (image) pressed_ = on_device_.pressed();
   seconds_.on_device += seconds_since(begin);
   return image;
 }
@@ -77,6 +78,7 @@ void Film::add_frame(const run::Simulation& simulation, std::uint32_t step) {
   drawing_.wait();
   seconds_.wait += seconds_since(waiting);
 
+  pressed_.reset();
   if (std::optional<render::Image> image = drawn_on_device(simulation))
     return drawing_.put({step, std::move(image)});
   const auto begin = std::chrono::steady_clock::now();

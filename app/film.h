@@ -39,6 +39,10 @@ class Film {
   // Where a device has the state and can draw it, the frame is drawn there and then.
   void add_frame(const run::Simulation& simulation, std::uint32_t step);
 
+  // Returns the largest amount of liquid in the open that is more than two cells, or 0, if a device has drawn
+  // the last frame. Then who watches the run need not fetch the state for that.
+  std::optional<std::int32_t> pressed() const { return pressed_; }
+
   // Says that frames of these steps are in the folder already, from an earlier part of the run. It is called
   // before the first add_frame().
   void keep(const std::vector<std::uint32_t>& steps);
@@ -74,6 +78,7 @@ class Film {
   render::PictureOnDevice on_device_;
   render::Frames frames_;
   std::vector<std::uint32_t> steps_;  // steps of the frames
+  std::optional<std::int32_t> pressed_;
   std::atomic<bool> slow_ = false;
   RunSeconds seconds_;
   render::WorkLine<Shot> drawing_;  // last: its thread uses all of the above

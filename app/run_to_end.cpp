@@ -116,7 +116,7 @@ class Run {
     if (film_->is_slow() && checkpoints_.affordable())
       checkpoint();  // an interrupt may lose this frame; then the run goes on from here
     film_->add_frame(simulation_, step);
-    watch_.look(simulation_.volume(), step);
+    if (watch_.may_find(film_->pressed())) watch_.look(simulation_.volume(), step);
   }
 
   // Steps until the last step, or an interrupt.

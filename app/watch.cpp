@@ -13,6 +13,10 @@ constexpr int kFull = 4096;  // amount of a full cell
 
 }  // namespace
 
+bool Watch::may_find(std::optional<std::int32_t> largest) const {
+  return !largest || *largest > std::max(seen_.largest, 2 * kFull);
+}
+
 void Watch::look(const state::Volume& volume, std::uint32_t step) {
   seen_.largest = std::max(seen_.largest, 2 * kFull);
   for (int z = 0; z < volume.grid.z; ++z)

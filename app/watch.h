@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ class Watch {
   // Looks for liquid that is compressed in the open: more than two cells in one, and nothing above it but the
   // border. If a vent brings more than flows away, its column reaches the top of the grid and fills up.
   void look(const state::Volume& volume, std::uint32_t step);
+  // Tells if a look may find more. `largest` is the amount of such a cell, or less than two cells if there is
+  // none. It is nothing if nobody knows.
+  bool may_find(std::optional<std::int32_t> largest) const;
 
   std::vector<std::string> warnings(const run::Simulation& simulation) const;
 

@@ -56,6 +56,7 @@ void DeviceField::resize(const gpu::StateOnDevice& state, int channels) {
   for (Buffer* buffer : {&now_, &next_}) *buffer = on.allocate(all);
   for (Buffer* buffer : {&as_solid_, &as_liquid_}) *buffer = on.allocate(field);
   columns_ = on.allocate(kColumnKinds * columns);
+  pressed_ = on.allocate(sizeof(std::int32_t));
   for (Buffer* buffer : {&levels_, &next_levels_, &heights_}) *buffer = on.allocate(columns);
   known_heights_.clear();
   const gpu::Shape& s = *state.shape;
@@ -71,9 +72,10 @@ void DeviceField::find_columns(const gpu::StateOnDevice& state, const scene::Ter
   std::vector<std::int32_t> heights = heights_of(terrain, grid_);
   if (!heights.empty() && heights != known_heights_) kernels_->write(*heights_, heights);
   known_heights_ = std::move(heights);
+  kernels_->device().clear(*pressed_, sizeof(std::int32_t));
   kernels_->run(PictureKernel::find_columns, state.groups,
                 {shape_.get(), state.flags, state.amount, heights_.get(), known_heights_.empty() ? 0 : 1,
-                 columns_.get()});
+                 columns_.get(), pressed_.get()});
   kernels_->run(PictureKernel::begin_levels, state.groups, {shape_.get(), columns_.get(), levels_.get()});
   for (int pass = 0; pass < std::min(4 * passes, 12); ++pass) {
     kernels_->run(PictureKernel::smooth_levels, state.groups,
@@ -155,6 +157,8 @@ std::vector<std::int32_t> DeviceField::fetch_ground() const {
     ground[c] = all[kBed * columns + c] * 4096 + all[kOffset * columns + c];
   return ground;
 }
+
+std::int32_t DeviceField::fetch_pressed() const { return kernels_->read<std::int32_t>(*pressed_, 1).front(); }
 
 std::vector<std::int32_t> DeviceField::fetch_wetness() const { return fetch_columns(kFilm + 1); }
 

@@ -31,6 +31,9 @@ class DeviceField {
   std::vector<std::uint16_t> fetch(int channel) const;
   std::vector<std::int32_t> fetch_ground() const;   // 1/4096 cell, by column
   std::vector<std::int32_t> fetch_wetness() const;  // 0..4096
+  // Returns the largest amount of liquid that has nothing solid or inert above it, if that is more than two
+  // cells, or 0.
+  std::int32_t fetch_pressed() const;
 
   // These are for kernels that go on from the field: all channels, the numbers of its lattice (P), and memory
   // of the lattice's size that nobody needs until the next update. `room` has four bytes a place, and the
@@ -59,7 +62,7 @@ class DeviceField {
   int channels_ = 0, passes_ = 0;
   Buffer now_, next_;            // all channels, in the lattice of program/lattice.cl
   Buffer as_solid_, as_liquid_;  // the intensity by the solid's passes, and by the liquid's
-  Buffer shape_, columns_, levels_, next_levels_, heights_, tones_;
+  Buffer shape_, pressed_, columns_, levels_, next_levels_, heights_, tones_;
   std::vector<std::int32_t> known_heights_;  // of the terrain, as the device has them
 };
 

@@ -45,6 +45,7 @@ class DevicePicture {
   // Draws the state of the last update, also after the device has gone on.
   Image draw(const scene::Camera& camera, Setting setting);
 
+  std::int32_t fetch_pressed() const { return field_.fetch_pressed(); }  // of the last update
   // Fetches the bytes of cells of light, as LightVolume has them.
   std::vector<LightBytes> fetch_light() const;
 

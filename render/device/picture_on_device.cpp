@@ -1,5 +1,6 @@
 #include "render/device/picture_on_device.h"
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -39,6 +40,12 @@ bool PictureOnDevice::update(const std::optional<gpu::StateOnDevice>& state, con
     if (!picture_) picture_ = std::make_unique<DevicePicture>(std::make_shared<PictureKernels>(device_));
     picture_->update(*state, look, light, terrain);
   });
+}
+
+std::optional<std::int32_t> PictureOnDevice::pressed() {
+  std::int32_t most = 0;
+  if (!picture_ || !tried([&] { most = picture_->fetch_pressed(); })) return std::nullopt;
+  return most;
 }
 
 std::optional<Image> PictureOnDevice::draw(const scene::Camera& camera, Setting setting) {

@@ -1,6 +1,7 @@
 // A picture is drawn where its state lies. The host draws what a device cannot.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -29,6 +30,9 @@ class PictureOnDevice {
   // Draws the state of the last update, which was told to be drawn here. There is no picture if the device
   // fails.
   std::optional<Image> draw(const scene::Camera& camera, Setting setting);
+
+  // Returns DeviceField::fetch_pressed() of that state, or nothing if the device fails.
+  std::optional<std::int32_t> pressed();
 
  private:
   template <class Work>

@@ -21,6 +21,23 @@ ROOT = Path(__file__).resolve().parents[2]
 NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent"}
 VISCOUS = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.02')
 
+VENT = """[grid]
+size = [9, 16, 9]
+[run]
+frame_every = 20
+[[vent]]
+at = [4.5, 1.5, 4.5]
+radius = 2
+rate = 1
+[flow]
+law = "viscous"
+[flow.viscous]
+kappa = 20
+[camera]
+width = 32
+height = 32
+"""
+
 
 def with_environment(**more):
     return os.environ | more
@@ -137,6 +154,20 @@ class Runs(unittest.TestCase):
                 self.assertEqual(self.on_device(f"{name}_device/report.json") > 0, by_device)
         frames = [(self.folder / f"usual_device/frames/frame_{step:05}.png").read_bytes() for step in (0, 2)]
         self.assertNotEqual(*frames, "a picture of what does not change shows little")
+
+    # Liquid that presses against the top is found without the state, and described with it.
+    def test_a_needle_over_a_vent_is_warned_of(self):
+        vent = VENT.replace("rate = 1\n", "rate = {}\n")
+        for rate, count in ((1, 1), (0.01, 0)):
+            scene = write(self.folder, vent.format(rate), "vent.toml")
+            said = []
+            for who in ("reference", "gpu"):
+                self.run_to(scene, "--steps", "120", "--implementation", who, "--out", f"{who}_{count}")
+                report = json.loads((self.folder / f"{who}_{count}/report.json").read_text())
+                said.append([line for line in report["warnings"] if "presses against the top" in line])
+            self.assertEqual(said[0], said[1])
+            self.assertEqual(len(said[0]), count)
+        self.assertGreater(self.on_device("gpu_1/report.json"), 0)
 
     def rendered(self, *arguments, **more):
         result = voxmelt("render", self.folder / "scene.toml", "--steps", "3", "--quiet", *arguments, cwd=self.folder,

@@ -18,9 +18,17 @@
 
 FN int part_of_cell(uint f, int a) { return (f & INERT) != 0u ? 0 : imin(a, ONE); }
 
-// `heights` are those of the terrain, in cells, if there is one.
+// The largest amount of liquid with nothing solid or inert above it, if that is more than two cells, or 0. It tells who
+// watches a run that a vent fills the grid up to its top.
+FN int pressed_in(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, int first) {
+  int most = 2 * ONE;
+  for (int y = NY - 1; y >= 0 && !is_blocked(F[first + y * ROW]); --y) most = imax(most, A[first + y * ROW]);
+  return most > 2 * ONE ? most : 0;
+}
+
+// `heights` are those of the terrain, in cells, if there is one. `pressed` gets the largest amount of all columns.
 KERNEL(find_columns)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL const int* heights,
-                     int has_heights, GLOBAL int* columns) {
+                     int has_heights, GLOBAL int* columns, GLOBAL int* pressed) {
   FOR_COLUMNS(n) {
     int first = cell_at(P, n % NX, 0, n / NX);
     int highest = has_heights ? imin(heights[n], NY) : NY, bed = 0;
@@ -39,6 +47,8 @@ KERNEL(find_columns)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, G
       depth += imin(A[first + end * ROW], ONE);
     int puddle = floor_ > 0 && depth > 0 && end < NY;
     if (puddle) puddle = is_air(F[first + end * ROW], A[first + end * ROW]);
+    int most = pressed_in(P, F, A, first);
+    if (most > 0) RAISE_TO(pressed, most);
     COLUMN_NUMBER(BED) = bed;
     COLUMN_NUMBER(TOP_OF) = top;
     COLUMN_NUMBER(OFFSET_OF) = offset;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,12 @@
 #include "kernel/scene/scene.h"
 #include "render/density/density_field.h"
 #include "render/device/device_picture.h"
+#include "render/device/picture_on_device.h"
 #include "render/packet/picture.h"
 #include "render/reference/picture_scene.h"
+#include "tests/kernel/engine/gpu/bus.h"
+#include "tests/kernel/engine/gpu/same_steps.h"
+#include "tests/kernel/worlds.h"
 #include "tests/render/device/devices.h"
 #include "tests/render/hostile_picture.h"
 #include "tests/render/picture_pairs.h"
@@ -120,6 +125,53 @@ void draw_scene(const std::string& name, const std::vector<int>& views, int side
             << ", after " << steps << " steps more";
       }
   }
+}
+
+// From a picture to the next go the bytes of the image, and numbers of the view, the paint and the columns.
+// The state stays.
+TEST(KernelsOfThePicture, TheStateStaysWhereItIs) {
+  const auto bus = std::make_shared<gpu::Bus>(gpu::plain_device(1, plain_picture_kernels()));
+  scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / "bunny_small.toml", {});
+  run::Simulation simulation(scene.parameters, scene.initial,
+                             worlds::on_device([&](const auto&, const auto&) { return bus; }));
+  while (simulation.steps_done() < 40) simulation.step();
+  scene.camera.width = scene.camera.height = 24;
+  PictureOnDevice drawn;
+  std::size_t before = 0;
+  for (int frame = 0; frame < 3; ++frame) {
+    before = bus->bytes();
+    simulation.step();
+    ASSERT_TRUE(drawn.update(simulation.state_on_device(), scene.look, scene.light, scene.terrain));
+    ASSERT_TRUE(drawn.draw(scene.camera, Setting::normal));
+    ASSERT_EQ(drawn.pressed(), 0);
+  }
+  const state::Grid& grid = scene.initial.grid;
+  const std::size_t columns = static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.z);
+  EXPECT_LE(bus->bytes() - before, 24 * 24 * 3 + 8 * columns + 2 * 8 * kViewNumbers + 4);
+  EXPECT_GT(bus->bytes() - before, 24 * 24 * 3);
+}
+
+// Liquid of more than two cells counts where nothing solid or inert is above it, and liquid does not hide it.
+TEST(KernelsOfThePicture, KnowWhatIsPressed) {
+  const OnDevice on = plain(2);
+  state::Volume volume({5, 6, 4});
+  gpu::Stepper stepper(on.device, hot(), volume.grid);
+  PictureOnDevice drawn;
+  const auto pressed = [&] {
+    stepper.upload(volume, {});
+    EXPECT_TRUE(drawn.update(stepper.where(), {}, {}, {}));
+    return drawn.pressed();
+  };
+  worlds::put(volume, 1, 2, 3, 8192);
+  EXPECT_EQ(pressed(), 0) << "two cells";
+  worlds::put(volume, 4, 1, 0, 9001);
+  worlds::put(volume, 4, 2, 0, 9000);
+  worlds::put(volume, 2, 0, 2, 60000);
+  EXPECT_EQ(pressed(), 60000);
+  worlds::put_inert(volume, 2, 5, 2);
+  EXPECT_EQ(pressed(), 9001);
+  worlds::put_solid(volume, 4, 2, 0);
+  EXPECT_EQ(pressed(), 0);
 }
 
 TEST(KernelsOfThePicture, SameHostilePictures) {
