@@ -137,8 +137,9 @@ void warn_of_load(double load, int own) {
   if (!busy.empty()) say("warning: " + busy);
 }
 
-void print_on_device(measure::Suite& suite, const measure::Workload& workload) {
-  const measure::DeviceCase& one = suite.run_on_device(workload);
+void print_on_device(measure::Suite& suite, const measure::Workload& workload,
+                     const scene::Scene* scene = nullptr) {
+  const measure::DeviceCase& one = suite.run_on_device(workload, scene);
   print_device_case(suite.device(), one);
 }
 
@@ -189,7 +190,7 @@ int run_bench(BenchOptions options) {
     const measure::Workload workload = measure::scene_at(scene, step, threads, std::move(provider));
     if (automaton) suite.run_scene(workload, scene);
     if (picture) print_drawing(suite.run_drawing(workload, scene));
-    if (device) print_on_device(suite, workload);
+    if (device) print_on_device(suite, workload, &scene);
   }
   if (automaton && options.scenes.empty()) suite.run_dense();
   if (device && options.scenes.empty())

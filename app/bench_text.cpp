@@ -110,6 +110,10 @@ void print_device_case(const measure::DeviceMachine& machine, const measure::Dev
   if (one.rays > 0)
     print("  {:<14} {:>8} ms  for {} rays, where it is a step of visibility\n", "visibility",
           milliseconds(one.visibility), one.rays);
+  if (one.picture)
+    print("  {:<14} {:>8} ms  {} x {}, {} of it to draw, {} launches; a processor makes it in {} ms\n",
+          "picture", milliseconds(one.picture->seconds()), one.picture->width, one.picture->height,
+          milliseconds(one.picture->draw), one.picture->launches, milliseconds(one.picture->processor));
   for (const measure::KernelTime& kernel : one.kernels)
     print("  {:<14} {:>8} ms  in {} calls\n", kernel.name, milliseconds(kernel.seconds),
           three_digits(kernel.calls));

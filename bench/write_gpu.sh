@@ -37,5 +37,10 @@ takes beside that. "In a run" has it, and a share of one fetch of the state at t
 What the host sends or fetches, if it does:
 
 $(table transfers)
+
+Pictures, made anew from a state on the device, with the setting \`normal\`. A processor makes the
+same one anew, too, from a state of its own:
+
+$(table devicepictures)
 END
 echo "written: $docs/results/gpu.md"

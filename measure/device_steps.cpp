@@ -99,6 +99,17 @@ class OnDevice {
   }
   void download_masks() { stepper_.download_masks(volume_); }
   void download() { stepper_.download(volume_, ledger_); }
+  // The state after the first step.
+  DrawnState drawn() {
+    const auto again = [this] {
+      upload();
+      first_step();
+      return stepper_.where();
+    };
+    again();
+    download();
+    return {device_, again, volume_};
+  }
 
  private:
   static std::shared_ptr<WatchedDevice> opened(const gpu::OpenClDevice& found, const Workload& workload) {
@@ -215,7 +226,7 @@ void DeviceBench::measure_machine(WatchedDevice& device) {
   machine_.launch = std::max(0.0, launches - waiting) / kLaunches;
 }
 
-DeviceCase DeviceBench::run(const Workload& given) {
+DeviceCase DeviceBench::run(const Workload& given, const scene::Scene* scene) {
   Workload workload = given;
   workload.parameters.pieces.fall = false;  // the host's work
   const std::uint64_t expected = expected_digest(workload);
@@ -238,6 +249,7 @@ DeviceCase DeviceBench::run(const Workload& given) {
   time_rounds(on_device, workload, expected, rounds_, one);
   count_bytes(on_device, one);
   time_kernels(on_device, workload, one);
+  if (scene != nullptr) one.picture = time_picture(on_device.drawn(), *scene, beside_.threads, kTrials);
   return one;
 }
 

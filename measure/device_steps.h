@@ -5,10 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/automaton/step/stepper.h"
+#include "kernel/scene/scene.h"
+#include "measure/device_picture.h"
 #include "measure/measure.h"
 #include "measure/rounds.h"
 #include "measure/workloads.h"
@@ -58,6 +61,7 @@ struct DeviceCase {
   // The same step on a processor, without visibility.
   Candidate processor;
   double processor_seconds = 0;
+  std::optional<DevicePictureTime> picture;  // of a scene, if the device draws it
 
   double bytes_per_second() const { return bytes_per_cell * static_cast<double>(active) / seconds; }
   double percent_of_copy() const { return 100 * bytes_per_second() / copied_per_second; }
@@ -70,8 +74,9 @@ class DeviceBench {
   // `implementation` is a device's: "gpu:1". The processor beside it runs `beside`.
   DeviceBench(const step::Implementation& implementation, Candidate beside, Rounds rounds);
 
-  // Throws Mismatch if the bits or the books are wrong, and DeviceError.
-  DeviceCase run(const Workload& workload);
+  // Throws Mismatch if the bits or the books are wrong, and DeviceError. The scene is that of the workload,
+  // if it is of one.
+  DeviceCase run(const Workload& workload, const scene::Scene* scene = nullptr);
 
   // Returns volumes in which every cell works.
   std::vector<Workload> dense(bool quick) const;

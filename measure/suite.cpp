@@ -247,8 +247,8 @@ DeviceBench& Suite::device_bench() {
   return *device_;
 }
 
-const DeviceCase& Suite::run_on_device(const Workload& workload) {
-  findings_.device_cases.push_back(device_bench().run(workload));
+const DeviceCase& Suite::run_on_device(const Workload& workload, const scene::Scene* scene) {
+  findings_.device_cases.push_back(device_bench().run(workload, scene));
   findings_.device = device_bench().machine();
   return findings_.device_cases.back();
 }

@@ -126,7 +126,7 @@ class Suite {
   const MeltFilm& run_film(const scene::Scene& scene);
 
   // Each of these is about plan.device, beside the last implementation with the most threads.
-  const DeviceCase& run_on_device(const Workload& workload);
+  const DeviceCase& run_on_device(const Workload& workload, const scene::Scene* scene = nullptr);
   std::vector<Workload> dense_on_device() { return device_bench().dense(plan_.quick); }
   const DeviceMachine& device() { return device_bench().machine(); }
 

@@ -42,8 +42,10 @@ class WatchedDevice final : public gpu::Device {
     watching_ = false;
     calls_.clear();
     sent_ = fetched_ = 0;
+    launches_ = 0;
   }
   const std::map<std::string, Calls>& calls() const { return calls_; }
+  int launches() const { return launches_; }          // of others' kernels
   std::uint64_t sent() const { return sent_; }        // bytes to the device
   std::uint64_t fetched() const { return fetched_; }  // bytes from it
 
@@ -62,6 +64,14 @@ class WatchedDevice final : public gpu::Device {
   void run(gpu::Kernel kernel, int groups, std::initializer_list<gpu::Argument> arguments) override {
     timed(gpu::kKernelNames[static_cast<std::size_t>(kernel)],
           [&] { device_->run(kernel, groups, arguments); });
+  }
+  std::unique_ptr<gpu::OtherKernels> build(const gpu::OtherProgram& program) override {
+    return device_->build(program);
+  }
+  void run(const gpu::OtherKernels& kernels, std::size_t kernel, int groups,
+           std::initializer_list<gpu::Argument> arguments) override {
+    ++launches_;
+    device_->run(kernels, kernel, groups, arguments);
   }
   void flush() override { device_->flush(); }
   int most_groups() const override { return device_->most_groups(); }
@@ -85,6 +95,7 @@ class WatchedDevice final : public gpu::Device {
   bool watching_ = false;
   std::map<std::string, Calls> calls_;
   std::uint64_t sent_ = 0, fetched_ = 0;
+  int launches_ = 0;
 };
 
 }  // namespace voxmelt::measure

@@ -68,11 +68,26 @@ std::string transfers_table(const Findings& findings) {
   return text + "\n";
 }
 
+std::string device_pictures_table(const Findings& findings) {
+  std::string text = begin(
+      "devicepictures",
+      "| workload | pixels | a picture, ms | of it to draw | launches | fetched, MB | a processor, ms |\n"
+      "|---|---|--:|--:|--:|--:|--:|");
+  for (const DeviceCase& one : findings.device_cases)
+    if (const auto& picture = one.picture)
+      text += fmt::format("| `{}` | {} x {} | {} | {} | {} | {} | {} |\n", one.workload, picture->width,
+                          picture->height, milliseconds(picture->seconds()), milliseconds(picture->draw),
+                          picture->launches, three_digits(static_cast<double>(picture->fetched) / 1e6),
+                          milliseconds(picture->processor));
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string device_tables(const Findings& findings) {
   if (!findings.device) return "";
-  return machine_table(*findings.device) + steps_table(findings) + transfers_table(findings);
+  return machine_table(*findings.device) + steps_table(findings) + transfers_table(findings) +
+         device_pictures_table(findings);
 }
 
 }  // namespace voxmelt::measure

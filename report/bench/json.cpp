@@ -144,6 +144,17 @@ json transfer_json(const Transfer& one) {
   return {{"milliseconds", one.seconds * 1e3}, {"bytes", one.bytes}};
 }
 
+json device_picture_json(const std::optional<DevicePictureTime>& one) {
+  if (!one) return nullptr;
+  return {{"width", one->width},
+          {"height", one->height},
+          {"milliseconds", one->seconds() * 1e3},
+          {"draw_milliseconds", one->draw * 1e3},
+          {"launches", one->launches},
+          {"fetched_bytes", one->fetched},
+          {"processor_milliseconds", one->processor * 1e3}};
+}
+
 json device_case_json(const DeviceCase& one) {
   json kernels = json::array();
   for (const KernelTime& kernel : one.kernels)
@@ -167,6 +178,7 @@ json device_case_json(const DeviceCase& one) {
           {"upload", transfer_json(one.upload)},
           {"masks", transfer_json(one.masks)},
           {"download", transfer_json(one.download)},
+          {"picture", device_picture_json(one.picture)},
           {"processor",
            {{"implementation", one.processor.implementation->name},
             {"threads", one.processor.threads},

@@ -232,7 +232,14 @@ class Runs(unittest.TestCase):
         self.assertGreater(case["upload"]["bytes"], case["download"]["bytes"] + cells)
         self.assertGreater(case["visibility"]["rays"], 0)
         self.assertGreater(case["visibility"]["milliseconds"], 0)
-        for line in ("state there", "masks back", "state back", "visibility", "gravity"):
+        picture = case["picture"]
+        self.assertEqual((picture["width"], picture["height"]), (64, 48))
+        self.assertGreater(picture["launches"], 40)
+        self.assertTrue(0 < picture["draw_milliseconds"] < picture["milliseconds"])
+        self.assertGreater(picture["processor_milliseconds"], 0)
+        # The bytes of the image, and a number for each column of the ground.
+        self.assertEqual(picture["fetched_bytes"], 3 * 64 * 48 + 4 * x * z)
+        for line in ("state there", "masks back", "state back", "visibility", "picture", "gravity"):
             self.assertRegex(result.stdout, rf"(?m)^  {line} +[0-9.]+ ms")
         with open(self.folder / "out/bench.csv", newline="") as file:
             written, = csv.DictReader(file)
@@ -251,7 +258,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         page = (self.folder / "docs/results/gpu.md").read_text()
         self.assertNotIn("<!-- table", page)
-        for heading in ("| device | driver |", "| workload | grid | ms a step |", "| workload | state there, ms |"):
+        for heading in ("| device | driver |", "| workload | grid | ms a step |", "| workload | state there, ms |", "| workload | pixels |"):
             self.assertIn(heading, page)
         for block in re.findall(r"(?:^\|.*\n)+", page, re.M):
             self.assertEqual(len({row.count("|") for row in block.splitlines()}), 1, block)

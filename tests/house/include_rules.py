@@ -87,7 +87,7 @@ ALLOWED = {
     "bench": ["accuracy/picture", "measure", PIPELINE, PARAMETERS, STATE, "kernel/scene", CPU, VISIBILITY, "kernel/run",
               "render/density", "render/packet", "render/reference", "render/visibility"],
     "measure": ["kernel/engine/gpu", "measure/baseline", PARAMETERS, STATE, STEP, "kernel/scene", CPU, VISIBILITY,
-                "kernel/run", "render/density", "render/packet", "render/image", "render/frames"],
+                "kernel/run", "render/density", "render/device", "render/packet", "render/image", "render/frames"],
     "measure/baseline": [PARAMETERS, STATE],
     # The judge sees states and scenes, never a rule.
     "accuracy": [STATE, STEP, "kernel/scene", "kernel/run", "measure"],
