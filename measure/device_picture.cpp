@@ -25,7 +25,7 @@ std::optional<DevicePictureTime> time_picture(const DrawnState& state, const sce
                                               int rounds) {
   if (!render::device_draws(state.again(), scene.look)) return std::nullopt;
   DevicePictureTime time{.width = scene.camera.width, .height = scene.camera.height};
-  render::DevicePicture drawn(std::make_shared<render::PictureKernels>(state.device));
+  render::DevicePicture drawn(std::make_shared<render::PictureKernels>(state.device, state.again().shape));
   Least update, draw, processor;
   for (int round = 0; round <= rounds; ++round) {  // the first one makes what is kept
     const gpu::StateOnDevice there = state.again();

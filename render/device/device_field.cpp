@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "kernel/engine/gpu/constants.h"
 #include "render/density/columns.h"
 #include "render/density/low_pass.h"
 #include "render/density/tones.h"
@@ -59,9 +60,7 @@ void DeviceField::resize(const gpu::StateOnDevice& state, int channels) {
   pressed_ = on.allocate(sizeof(std::int32_t));
   for (Buffer* buffer : {&levels_, &next_levels_, &heights_}) *buffer = on.allocate(columns);
   known_heights_.clear();
-  const gpu::Shape& s = *state.shape;
-  std::vector<std::int64_t> numbers{grid.x,  grid.y,  grid.z,     s.row,      s.slice,
-                                    s.first, s.cells, s.bricks.x, s.bricks.y, s.bricks.z};
+  std::vector<std::int64_t> numbers = gpu::shape_numbers(*state.shape);
   shape_ = on.allocate(sizeof(std::int64_t) * numbers.size());
   kernels_->write(*shape_, std::move(numbers));
   grid_ = grid;

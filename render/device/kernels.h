@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/engine/gpu/device.h"
+#include "kernel/engine/gpu/shape.h"
 
 namespace voxmelt::render {
 
@@ -47,7 +48,8 @@ inline constexpr const char* kPictureKernelNames[] = {
 // The kernels, built for a device. Every function may throw gpu::DeviceError.
 class PictureKernels {
  public:
-  explicit PictureKernels(std::shared_ptr<gpu::Device> device);
+  // They are for states of this shape alone, or for any.
+  explicit PictureKernels(std::shared_ptr<gpu::Device> device, const gpu::Shape* shape = nullptr);
 
   gpu::Device& device() const { return *device_; }
   void run(PictureKernel kernel, int groups, std::initializer_list<gpu::Argument> arguments) const {

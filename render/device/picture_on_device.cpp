@@ -30,14 +30,16 @@ bool PictureOnDevice::tried(const Work& work) {
 bool PictureOnDevice::update(const std::optional<gpu::StateOnDevice>& state, const scene::Look& look,
                              const scene::Light& light, const scene::Terrain& terrain) {
   if (!state || !device_draws(*state, look)) return false;
-  if (device_ != state->device) {
+  if (device_ != state->device || !(grid_ == state->shape->grid)) {
     picture_.reset();
     device_ = state->device;
+    grid_ = state->shape->grid;
     refused_ = false;
   }
   if (refused_) return false;
   return tried([&] {
-    if (!picture_) picture_ = std::make_unique<DevicePicture>(std::make_shared<PictureKernels>(device_));
+    if (!picture_)
+      picture_ = std::make_unique<DevicePicture>(std::make_shared<PictureKernels>(device_, state->shape));
     picture_->update(*state, look, light, terrain);
   });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "kernel/automaton/state/grid.h"
 #include "kernel/engine/gpu/state_on_device.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
@@ -39,6 +40,7 @@ class PictureOnDevice {
   bool tried(const Work& work);
 
   std::shared_ptr<gpu::Device> device_;  // that has drawn, or refused
+  state::Grid grid_{0, 0, 0};            // for which its kernels were built
   std::unique_ptr<DevicePicture> picture_;
   bool refused_ = false;
 };

@@ -168,4 +168,17 @@ std::string specialised_options(const Constants& constants) {
   return options;
 }
 
+std::vector<std::int64_t> shape_numbers(const Shape& shape) {
+  std::vector<std::int64_t> numbers;
+  for (const Named& one : of_shape(shape)) numbers.push_back(one.second);
+  return numbers;
+}
+
+std::string specialised_options(const Shape& shape) {
+  std::string options = " -D SPECIALISED";
+  for (const auto& [name, number] : of_shape(shape))
+    options += " -D " + std::string(name) + "=" + std::to_string(number);
+  return options;
+}
+
 }  // namespace voxmelt::gpu

@@ -24,4 +24,8 @@ std::int32_t source_kinds(const rule::Heat& heat);
 // Returns the options that make a program for these numbers alone: -D NX=64 and so on.
 std::string specialised_options(const Constants& constants);
 
+// Returns the numbers of a shape alone, and such options for a program that reads no others.
+std::vector<std::int64_t> shape_numbers(const Shape& shape);
+std::string specialised_options(const Shape& shape);
+
 }  // namespace voxmelt::gpu

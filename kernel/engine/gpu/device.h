@@ -60,6 +60,7 @@ using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory tha
 struct OtherProgram {
   std::string text;                    // OpenCL C, with the dialect
   std::span<const char* const> names;  // of its kernels
+  std::string options;                 // for the compiler: " -D NAME=value"
 };
 // It is built for a device, and lives no longer than that.
 class OtherKernels {

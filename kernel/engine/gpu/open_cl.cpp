@@ -128,7 +128,7 @@ class OpenClQueue final : public Device {
     start(*own_, static_cast<std::size_t>(kernel), groups, arguments);
   }
   std::unique_ptr<OtherKernels> build(const OtherProgram& program) override {
-    return built(program.text, program.names, {});
+    return built(program.text, program.names, program.options);
   }
   void run(const OtherKernels& kernels, std::size_t kernel, int groups,
            std::initializer_list<Argument> arguments) override {
