@@ -23,8 +23,7 @@ std::size_t blocks_of(const state::Grid& grid) {
 }  // namespace
 
 bool device_draws(const gpu::StateOnDevice& state, const scene::Look& look) {
-  const bool clear = look.clear[0] > 0 || look.clear[1] > 0 || look.clear[2] > 0;
-  return !clear && (!look.glow || state.heat != nullptr);
+  return !look.glow || state.heat != nullptr;
 }
 
 void DevicePicture::make_room(Buffer& buffer, std::size_t& has, std::size_t wanted) {
@@ -53,10 +52,11 @@ void DevicePicture::update(const gpu::StateOnDevice& state, const scene::Look& l
     grid_ = state.shape->grid;
     look_ = look_in_integers(look);
     paint_ = picture::paint_of(look_, lamp_in_integers(light));
-    write(paint_numbers_, paint_numbers(look_, paint_));
     const picture::Vector cells = picture::light_cells({grid_.x, grid_.y, grid_.z});
+    const int shift = picture::light_shift({grid_.x, grid_.y, grid_.z});
+    write(paint_numbers_, paint_numbers(look_, paint_, shift));
     lamp_ = lamp_sweep(paint_.to_light, cells);
-    put_light(numbers_, lamp_, cells, picture::light_shift({grid_.x, grid_.y, grid_.z}));
+    put_light(numbers_, lamp_, cells, shift);
     for (Buffer* buffer : {&blocks_, &next_blocks_, &ground_numbers_, &texels_, &rays_, &left_rays_,
                            &soft_rays_, &light_matter_, &light_, &along_})
       buffer->reset();

@@ -28,7 +28,7 @@
 
 namespace voxmelt::render {
 
-// Tells if a device draws such a look. Clear matter is the host's, and so is a glow where the device has no
+// Tells if a device draws such a look. A glow is the host's where the device has no
 // heat.
 bool device_draws(const gpu::StateOnDevice& state, const scene::Look& look);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/packet/tables.h"
+#include "render/rule/clear.h"
 #include "render/rule/light_grid.h"
 #include "render/rule/normal.h"
 
@@ -17,7 +18,7 @@ using picture::Vector;
 // Where tables begin: the same numbers stand in program/vectors.cl.
 constexpr std::size_t kInverseRoots = 64, kHighlights = 512, kDullHighlights = 1600, kSurroundings = 2688,
                       kGlowLights = 4800, kGlowCrusts = 5568, kTints = 6336, kTones = 8960, kBytes = 21312,
-                      kPaintNumbers = 25472;
+                      kPassing = 25472, kPaintNumbers = 27584;
 
 std::int64_t along(Vector v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -117,7 +118,8 @@ void put_light(ViewNumbers& numbers, const LampSweep& lamp, Vector light_cells, 
   std::copy(rest.begin(), rest.end(), numbers.begin() + 37);
 }
 
-std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture::Paint& paint) {
+std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture::Paint& paint,
+                                        int light_shift) {
   Numbers numbers(kPaintNumbers);
   numbers.put(paint.to_light);
   numbers.put(paint.to_strip);
@@ -130,6 +132,10 @@ std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture
   numbers.put(look.background);
   numbers.put(look.glow_cold);
   numbers.put(look.glow_hot);
+  numbers.put(paint.clear ? 1 : 0);
+  numbers.put(paint.losses);
+  numbers.put(paint.frost);
+  numbers.put(paint.clear ? picture::density_share(paint.passing, paint.losses, light_shift) : 256);
   numbers.put_at(kInverseRoots, picture::kInverseRoot);
   numbers.put_at(kHighlights, paint.highlight);
   numbers.put_at(kDullHighlights, paint.dull_highlight);
@@ -139,6 +145,7 @@ std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture
   numbers.put_at(kTints, paint.tints);
   numbers.put_at(kTones, tone_table());
   numbers.put_at(kBytes, byte_table());
+  numbers.put_at(kPassing, paint.passing);
   return numbers.take();
 }
 

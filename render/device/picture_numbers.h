@@ -30,7 +30,8 @@ void put_view(ViewNumbers& numbers, const picture::View& view, const picture::Ca
 void put_ground(ViewNumbers& numbers, const GroundMap& ground);
 void put_light(ViewNumbers& numbers, const LampSweep& lamp, picture::Vector light_cells, int light_shift);
 
-std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture::Paint& paint);
+std::vector<std::int32_t> paint_numbers(const picture::Look& look, const picture::Paint& paint,
+                                        int light_shift);
 // Heights that are drawn come first, as they change.
 std::vector<std::int32_t> ground_numbers(const GroundMap& ground);
 std::vector<std::uint16_t> texel_numbers(const GroundMap& ground);  // at least one texel

@@ -145,7 +145,7 @@ class Runs(unittest.TestCase):
     def test_frames_are_drawn_where_the_state_is(self):
         scene = write(self.folder, SMALL)
         for name, look, by_device in (("usual", "look.glow=false", True), ("glowing", "look.glow=true", True),
-                                      ("clear", "look.clear=[4,4,4]", False)):
+                                      ("clear", "look.clear=[4,4,4]", True)):
             with self.subTest(look=look):
                 self.run_to(scene, "--set", look, "--out", f"{name}_host", "--implementation", "reference")
                 self.run_to(scene, "--set", look, "--out", f"{name}_device", "--implementation", "gpu")

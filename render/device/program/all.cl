@@ -11,4 +11,5 @@
 #include "render/device/program/rays.cl"
 #include "render/device/program/ground.cl"
 #include "render/device/program/shade.cl"
+#include "render/device/program/clear.cl"
 #include "render/device/program/draw.cl"

@@ -1,40 +1,49 @@
 // A picture, a pixel an item (docs/picture/definition.md, sections 9 and 10).
-#define SCENE                                                                                                       \
-  CONSTANTS, VIEW, PAINT, GLOBAL const short *levels, GLOBAL const uint *shares, GLOBAL const uchar *blocks,         \
-      GLOBAL const uchar *lights, GLOBAL const int *ground, GLOBAL const ushort *texels
-#define THIS_SCENE P, V, K, levels, shares, blocks, lights, ground, texels
-
 FN Color pressed(PAINT, Color light) {
   for (int c = 0; c < 3; ++c) light.c[c] = K[TONES + iclamp(light.c[c], 0, 12287)];
   return light;
 }
 
-// The light through a place of the picture, in 64ths of a pixel.
-FN Color light_through(SCENE, int across, int down) {
-  Ray ray = ray_through(V, across, down);
-  Crossing matter = first_crossing(P, V, levels, blocks, ray);
-  GroundCrossing met = first_ground(P, V, ground, ray);
-  int on_ground = met.found;
-  if (met.found && matter.found) {
-    long first = met.face == UPPER ? 0 : (long)1024 << HALVINGS;
-    on_ground = met.part * 8 <= (matter.sample - 1) * 2048 + matter.part + first;
-  }
-  Color sum = {{K[BACKGROUND], K[BACKGROUND + 1], K[BACKGROUND + 2]}};
-  if (!on_ground && !matter.found) return sum;
-  Vec to_eye = unit_of(K, opposite_of(ray.way));
-  if (!on_ground) {
-    Vec normal = matter.sample == 0 ? to_eye : normal_at(P, K, levels, matter.position);
-    return pressed(K, color_of_matter(P, V, K, shares, lights, matter.position, normal, to_eye));
-  }
+FN Color color_of_ground(SCENE, GroundCrossing met, Vec to_eye) {
   Vec normal = normal_of_ground(P, K, ground, met.position, met.face);
   Vec color = met.face == UPPER ? color_of_top(P, V, K, texels, met.position, &normal) : color_of_cut(P, V, ground, met);
   if (met.face == NO_FACE) normal = to_eye;
   Light light = light_before(V, K, lights, met.position, normal);
-  Color arrives = arriving_light(K, normal, &light, GLOWS);
-  sum.c[0] = (int)((arrives.c[0] * (int)color.x) >> 12);
-  sum.c[1] = (int)((arrives.c[1] * (int)color.y) >> 12);
-  sum.c[2] = (int)((arrives.c[2] * (int)color.z) >> 12);
-  return pressed(K, sum);
+  Color sum = arriving_light(K, normal, &light, GLOWS);
+  sum.c[0] = (int)((sum.c[0] * (int)color.x) >> 12);
+  sum.c[1] = (int)((sum.c[1] * (int)color.y) >> 12);
+  sum.c[2] = (int)((sum.c[2] * (int)color.z) >> 12);
+  return sum;
+}
+
+// The light of a ray that may go on through matter.
+FN Color clear_light(SCENE, Ray ray, GroundCrossing met, Crossing matter, Vec to_eye) {
+  Walk walk = {ray, to_eye, 0, LIGHT_ONE, 0, {0, 0, 0}, {0, 0, 0}};
+  walk.step = dot_of(shifted(opposite_of(ray.way), 4), to_eye) >> LENGTH_BITS;
+  int to_ground = follow(THIS_SCENE, &walk, met, matter);
+  Color behind = {{0, 0, 0}};
+  if (to_ground) behind = color_of_ground(THIS_SCENE, met, to_eye);
+  Color share = passed_by(K, &walk), sum;
+  for (int c = 0; c < 3; ++c)
+    sum.c[c] = walk.mirrored[c] + ((walk.scattered[c] + share.c[c] * behind.c[c]) >> 15);
+  sum = pressed(K, sum);
+  if (!to_ground)
+    for (int c = 0; c < 3; ++c) sum.c[c] = imin(sum.c[c] + ((share.c[c] * K[BACKGROUND + c]) >> 15), LIGHT_ONE);
+  return sum;
+}
+
+// The light through a place of the picture, in 64ths of a pixel.
+FN Color light_through(SCENE, int across, int down) {
+  Ray ray = ray_through(V, across, down);
+  Crossing matter = first_crossing(P, V, levels, blocks, ray, 0);
+  GroundCrossing met = first_ground(P, V, ground, ray);
+  Vec to_eye = unit_of(K, opposite_of(ray.way));
+  if (CLEAR) return clear_light(THIS_SCENE, ray, met, matter, to_eye);
+  if (ground_is_first(V, met, matter)) return pressed(K, color_of_ground(THIS_SCENE, met, to_eye));
+  Color sum = {{K[BACKGROUND], K[BACKGROUND + 1], K[BACKGROUND + 2]}};
+  if (!matter.found) return sum;
+  Vec normal = matter.sample == 0 ? to_eye : normal_at(P, K, levels, matter.position);
+  return pressed(K, color_of_matter(P, V, K, shares, lights, matter.position, normal, to_eye));
 }
 
 // One sample a pixel. Items of a group lie beside each other in the picture.

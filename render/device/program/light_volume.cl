@@ -6,26 +6,36 @@
 #define SIDES 6
 #define LIGHT_CELLS (LIGHT_X * LIGHT_Y * LIGHT_Z)
 
+// The density of clear matter, of which obstacles are not thinned (docs/picture/translucent.md, section 8).
+FN int thinned_density(int all, int obstacle, int share) {
+  int opaque = imin(all, obstacle), clear = all - opaque;
+  return opaque + (clear <= 12 ? clear : 12 + (((clear - 12) * share) >> 8));
+}
+
 // `matter` has two bytes a cell of light: density and emission. `ground` has the drawn heights first.
 KERNEL(find_density)(CONSTANTS, VIEW, PAINT, GLOBAL const ushort* all, GLOBAL const int* ground, GLOBAL uchar* matter) {
   GLOBAL const ushort* liquids = all + (ulong)LIQUID_PART * (ulong)PLACES;
   GLOBAL const ushort* heats = all + (ulong)HEAT_PART * (ulong)PLACES;
+  GLOBAL const ushort* obstacles = all + (ulong)OBSTACLE_PART * (ulong)PLACES;
   int s = LIGHT_SHIFT, side = 1 << s;
   for (int n = GROUP * LANES + LANE; n < LIGHT_CELLS; n += GROUPS * LANES) {
     int x0 = n % LIGHT_X << s, y0 = n / LIGHT_X % LIGHT_Y << s, z0 = n / (LIGHT_X * LIGHT_Y) << s;
-    long filled = 0, earth = 0, sent = 0;
+    long filled = 0, opaque = 0, earth = 0, sent = 0;
     for (int z = z0; z < imin(z0 + side, NZ); ++z)
       for (int x = x0; x < imin(x0 + side, NX); ++x) {
         if (GROUND_HIGHEST > 0) earth += lclamp((long)ground[z * NX + x] - 4096 * (long)y0, 0, (long)4096 << s);
         for (int y = y0; y < imin(y0 + side, NY); ++y) {
           int at = place_at(P, x, y, z);
           filled += all[at];
+          if (CLEAR) opaque += obstacles[at];
           if (!GLOWS) continue;
           int liquid = liquids[at], heat = heat_share(K, liquid, heats[at]);
           sent += (liquid * ((heat * heat) >> 8)) >> 16;
         }
       }
-    matter[2 * n] = (uchar)lmax(filled >> (3 * s + 8), (255 * earth) >> (3 * s + 12));
+    int own = (int)(filled >> (3 * s + 8));
+    if (CLEAR) own = thinned_density(own, (int)(opaque >> (3 * s + 8)), DENSITY_SHARE);
+    matter[2 * n] = (uchar)lmax(own, (255 * earth) >> (3 * s + 12));
     matter[2 * n + 1] = (uchar)(sent >> (3 * s));
   }
 }

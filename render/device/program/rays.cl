@@ -55,8 +55,8 @@ FN int sample_of(CONSTANTS, GLOBAL const short* levels, Vec p) {
   return blended(low, high, weight_above(p.z));
 }
 
-FN Crossing crossing_before(CONSTANTS, GLOBAL const short* levels, Ray ray, long k) {
-  Vec outside = ray_at(ray, k - 1), inside = ray_at(ray, k);
+// Sample k is matter, at `inside`.
+FN Crossing crossing_between(CONSTANTS, GLOBAL const short* levels, Vec outside, Vec inside, long k) {
   int low = sample_of(P, levels, outside), high = sample_of(P, levels, inside), part = 0;
   for (int i = 0; i < 3; ++i) {
     Vec middle = added(outside, shifted(without(inside, outside), 1));
@@ -77,11 +77,12 @@ FN Crossing crossing_before(CONSTANTS, GLOBAL const short* levels, Ray ray, long
 }
 
 // In a block of air so many samples further are air, too: no step is longer than 2^-SPACING cells along an axis.
-FN Crossing first_crossing(CONSTANTS, VIEW, GLOBAL const short* levels, GLOBAL const uchar* blocks, Ray ray) {
+FN Crossing first_crossing(CONSTANTS, VIEW, GLOBAL const short* levels, GLOBAL const uchar* blocks, Ray ray,
+                           long from) {
   long low = -((long)1 << CELL_BITS) - TO_PLACE;
   Vec high = vec(((long)NX << CELL_BITS) - TO_PLACE, ((long)NY << CELL_BITS) - TO_PLACE, ((long)NZ << CELL_BITS) - TO_PLACE);
   Samples in = samples_in(ray, vec(low, low, low), high);
-  for (long k = in.first; k <= in.last; ++k) {
+  for (long k = lmax(in.first, from); k <= in.last; ++k) {
     Vec p = ray_at(ray, k);
     int bx = (int)(cell_below(p.x) + 1) >> 2, by_ = (int)(cell_below(p.y) + 1) >> 2, bz = (int)(cell_below(p.z) + 1) >> 2;
     int air = blocks[(bz * BLOCKS_Y + by_) * BLOCKS_X + bx];
@@ -90,7 +91,7 @@ FN Crossing first_crossing(CONSTANTS, VIEW, GLOBAL const short* levels, GLOBAL c
       continue;
     }
     if (sample_of(P, levels, p) < 0) continue;
-    if (k > 0) return crossing_before(P, levels, ray, k);
+    if (k > 0) return crossing_between(P, levels, ray_at(ray, k - 1), p, k);
     Crossing at_start = {1, 0, 2048, ray.start};
     return at_start;
   }

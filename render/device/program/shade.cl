@@ -11,8 +11,8 @@ FN int light_byte(VIEW, GLOBAL const uchar* light, PRIVATE const int* at, PRIVAT
                      blended(light[at[6] + byte_], light[at[7] + byte_], w[0]), w[1]);
   return blended(low, high, w[2]);
 }
-FN Light light_before(VIEW, PAINT, GLOBAL const uchar* light, Vec position, Vec normal) {
-  Vec p = shifted(added(position, by(normal, (long)1 << (6 + LIGHT_SHIFT))), LIGHT_SHIFT);
+FN Light light_at(VIEW, PAINT, GLOBAL const uchar* light, Vec position) {
+  Vec p = shifted(position, LIGHT_SHIFT);
   int w[3] = {weight_above(p.x), weight_above(p.y), weight_above(p.z)}, at[8];
   long x = cell_below(p.x), y = cell_below(p.y), z = cell_below(p.z);
   for (int n = 0; n < 8; ++n) {
@@ -27,6 +27,9 @@ FN Light light_before(VIEW, PAINT, GLOBAL const uchar* light, Vec position, Vec 
     found.glow[side] = GLOWS ? light_byte(V, light, at, w, GLOW_BYTES + side) : 0;
   }
   return found;
+}
+FN Light light_before(VIEW, PAINT, GLOBAL const uchar* light, Vec position, Vec normal) {
+  return light_at(V, K, light, added(position, by(normal, (long)1 << (6 + LIGHT_SHIFT))));
 }
 FN int seen_along(PRIVATE const int* sides, Vec d) {
   long sum = ((d.x * d.x) >> LENGTH_BITS) * sides[d.x < 0 ? 1 : 0] + ((d.y * d.y) >> LENGTH_BITS) * sides[d.y < 0 ? 3 : 2] +
@@ -115,14 +118,20 @@ FN int lit_peak(PAINT, Vec normal, Vec to_eye, int obstacle, int lamp) {
   return (((peak * smooth_light(0, 1024, facing >> 2)) >> 12) * whole_of(lamp)) >> 8;
 }
 
-FN Color color_of_matter(CONSTANTS, VIEW, PAINT, GLOBAL const uint* shares, GLOBAL const uchar* lights, Vec position,
-                         Vec normal, Vec to_eye) {
-  int liquid = share_at(P, shares, position, 0), heat = share_at(P, shares, position, 1);
-  int obstacle = iclamp((share_at(P, shares, added(position, by(normal, 32)), 2) - 148) * 73, 0, LIGHT_ONE);
-  int material[10];
+FN int obstacle_share(int obstacle) { return iclamp((obstacle - 148) * 73, 0, LIGHT_ONE); }
+
+// The parts of the light from a surface. `normal` is on the eye's side, and `out` points out of the matter.
+typedef struct {
+  int mirrored[3], scattered[3], sent[3];
+  int more, obstacle;  // the share that is mirrored of what comes from behind, and that of obstacles
+} Shine;
+FN Shine shine_of(CONSTANTS, VIEW, PAINT, GLOBAL const uint* shares, GLOBAL const uchar* lights, Vec position, Vec normal,
+                  Vec out, Vec to_eye) {
+  int liquid = share_at(P, shares, position, 0), heat = share_at(P, shares, position, 1), material[10];
+  int obstacle = obstacle_share(share_at(P, shares, added(position, by(out, 32)), 2));
   Color emission = material_of(K, liquid, heat, obstacle, material);
-  Light light = light_before(V, K, lights, position, normal);
-  Color arrives = arriving_light(K, normal, &light, GLOWS && obstacle > 0);
+  Light light = light_before(V, K, lights, position, out);
+  Color arrives = arriving_light(K, out, &light, GLOWS && obstacle > 0);
   int peak = lit_peak(K, normal, to_eye, obstacle, light.lamp);
   int eye = iclamp(cosine_of(normal, to_eye), 0, LENGTH_ONE), away = LENGTH_ONE - eye;
   int away2 = (away * away) >> LENGTH_BITS, away4 = (away2 * away2) >> LENGTH_BITS;
@@ -130,13 +139,23 @@ FN Color color_of_matter(CONSTANTS, VIEW, PAINT, GLOBAL const uint* shares, GLOB
   long twice = (2 * dot_of(normal, to_eye)) >> LENGTH_BITS;
   Vec reflected = without(shifted(by(normal, twice), LENGTH_BITS), to_eye);
   Color around = mirrored_light(K, reflected);
-  int seen = 614 + ((whole_of(seen_along(light.open, reflected)) * whole_of(seen_along(light.open, normal)) * 3482) >> 16);
-  Color sum;
+  int free_ = whole_of(seen_along(light.open, reflected)) * whole_of(seen_along(light.open, normal));
+  int seen = 614 + ((free_ * 3482) >> 16);
+  Shine shine;
+  shine.more = more;
+  shine.obstacle = obstacle;
   for (int c = 0; c < 3; ++c) {
     int fresnel = material[3 + c] + (((LIGHT_ONE - material[3 + c]) * more) >> 12);
-    int mirrored = ((material[6 + c] * peak) >> 12) + ((((around.c[c] * seen) >> 12) * fresnel) >> 12);
-    sum.c[c] = mirrored + ((arrives.c[c] * material[c]) >> 12) +
-               ((emission.c[c] * (2540 + ((1556 * eye) >> LENGTH_BITS))) >> 12);
+    shine.mirrored[c] = ((material[6 + c] * peak) >> 12) + ((((around.c[c] * seen) >> 12) * fresnel) >> 12);
+    shine.scattered[c] = (arrives.c[c] * material[c]) >> 12;
+    shine.sent[c] = (emission.c[c] * (2540 + ((1556 * eye) >> LENGTH_BITS))) >> 12;
   }
+  return shine;
+}
+FN Color color_of_matter(CONSTANTS, VIEW, PAINT, GLOBAL const uint* shares, GLOBAL const uchar* lights, Vec position,
+                         Vec normal, Vec to_eye) {
+  Shine shine = shine_of(P, V, K, shares, lights, position, normal, normal, to_eye);
+  Color sum;
+  for (int c = 0; c < 3; ++c) sum.c[c] = shine.mirrored[c] + shine.scattered[c] + shine.sent[c];
   return sum;
 }

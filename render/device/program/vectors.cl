@@ -79,6 +79,10 @@ FN long rounded_to(long a, int n) { return (a + ((long)1 << (n - 1))) >> n; }
 #define BACKGROUND 50
 #define GLOW_COLD K[53]
 #define GLOW_HOT K[54]
+#define CLEAR K[55]
+#define LOSSES 56
+#define FROST K[59]
+#define DENSITY_SHARE K[60]
 #define INVERSE_ROOTS 64
 #define HIGHLIGHTS 512
 #define DULL_HIGHLIGHTS 1600
@@ -88,6 +92,7 @@ FN long rounded_to(long a, int n) { return (a + ((long)1 << (n - 1))) >> n; }
 #define TINTS 6336
 #define TONES 8960
 #define BYTES 21312
+#define PASSING 25472
 
 #define LENGTH_BITS 14
 #define LENGTH_ONE 16384

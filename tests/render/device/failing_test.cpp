@@ -83,9 +83,6 @@ TEST(PictureOnDevice, IsTheHostsWhereTheDeviceHasNoStateOrDoesNotKnowTheLook) {
   picture.look.glow = true;
   EXPECT_FALSE(draws(stepper.where())) << "the device has no heat";
   picture.look.glow = false;
-  picture.look.clear = {0, 2, 0};
-  EXPECT_FALSE(draws(stepper.where()));
-  picture.look.clear = {};
   gpu::StateOnDevice full = stepper.where();
   full.taken = full.device->memory();
   PictureOnDevice other;
