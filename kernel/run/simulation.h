@@ -13,9 +13,12 @@
 #include "kernel/automaton/state/ledger.h"
 #include "kernel/automaton/state/mid_run.h"
 #include "kernel/automaton/step/stepper.h"
-#include "kernel/engine/gpu/state_on_device.h"
 #include "kernel/engine/visibility/visibility.h"
 #include "kernel/run/implementations.h"
+
+namespace voxmelt::gpu {
+struct StateOnDevice;
+}
 
 namespace voxmelt::run {
 

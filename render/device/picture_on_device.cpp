@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "render/device/device_picture.h"
 #include "render/device/kernels.h"
 
 namespace voxmelt::render {
 
+PictureOnDevice::PictureOnDevice() = default;
 PictureOnDevice::~PictureOnDevice() = default;
 
 // The driver of a lost device may still write where the picture wanted it to, so that one never ends.

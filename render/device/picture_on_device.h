@@ -9,15 +9,16 @@
 #include "kernel/engine/gpu/state_on_device.h"
 #include "kernel/scene/look.h"
 #include "kernel/scene/shape/terrain.h"
-#include "render/device/device_picture.h"
 #include "render/image/image.h"
 #include "render/packet/draw_picture.h"
 
 namespace voxmelt::render {
 
+class DevicePicture;
+
 class PictureOnDevice {
  public:
-  PictureOnDevice() = default;
+  PictureOnDevice();
   ~PictureOnDevice();
   PictureOnDevice(const PictureOnDevice&) = delete;
   PictureOnDevice& operator=(const PictureOnDevice&) = delete;

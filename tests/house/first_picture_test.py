@@ -12,7 +12,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
-LINES = 310700  # as counted last; more by a twentieth fails
+LINES = 334300  # as counted last; more by a twentieth fails
 HEAVY = {"CLI/": 1, "nlohmann/json.hpp": 6}
 OTHER_SETS = ("_sse42.dir/", "_avx512.dir/")  # of preset `first` on most machines: AVX2 alone, or NEON
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -194,8 +195,8 @@ TEST(OpenClPicture, SameViewsOfScenes) {
     for (const char* name : {"lava", "ice"}) draw_scene(name, {3, 9}, 48);
     return;
   }
-  std::vector<int> views;
-  for (int view = 0; view < 20; ++view) views.push_back(view);
+  std::vector<int> views(20);
+  std::iota(views.begin(), views.end(), 0);
   for (const char* name : {"cello", "lava", "bunny", "goblet", "ice", "chocolate_nuts"})
     draw_scene(name, views, 256);
 }
