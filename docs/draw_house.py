@@ -83,7 +83,7 @@ PURPOSES = {
     "kernel/engine/scalar": "the reference, in plain loops",
     "kernel/engine/simd": "every phase once, for any instruction set",
     "kernel/engine/parallel": "threads, and what sleeps",
-    "kernel/engine/gpu": "whole steps on a device, by OpenCL",
+    "kernel/engine/gpu": "whole steps on a device",
     "kernel/engine/visibility": "what each surface cell sees",
     "kernel/automaton": "what it is: the definition",
     "kernel/automaton/rule": "the rules, scalar and constexpr",

@@ -25,4 +25,6 @@ const step::Registry& devices() {
   return all;
 }
 
+std::string missing_for_cuda() { return gpu::missing_for_cuda(); }
+
 }  // namespace voxmelt::run

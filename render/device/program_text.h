@@ -1,4 +1,4 @@
-// The source of the picture's kernels, for a compiler of OpenCL C (program/). It is embedded at build.
+// The source of the kernels of pictures (program/). It is embedded at build.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ from pathlib import Path
 from program import PROGRAM, SMALL, voxmelt, write
 
 ROOT = Path(__file__).resolve().parents[2]
-NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent"}
+NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent", "CUDA_VISIBLE_DEVICES": ""}
 VISCOUS = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.02')
 
 VENT = """[grid]
@@ -66,6 +66,7 @@ class Refusals(unittest.TestCase):
         for name in ("gpu", "gpu:0"):
             self.refused("run", self.scene, "--implementation", name, code=2,
                          names=f"--implementation {name}: error: this machine has no device of OpenCL", **NO_DEVICES)
+        self.refused("run", self.scene, "--implementation", "gpu:cuda", code=2, names=" of CUDA", **NO_DEVICES)
         result = voxmelt("digest", self.scene, "--implementation", "auto", env=with_environment(**NO_DEVICES))
         self.assertEqual(result.returncode, 0, "auto takes a processor")
         self.refused("bench", "--parts", "device", code=2, names="error: this machine has no device of OpenCL", **NO_DEVICES)

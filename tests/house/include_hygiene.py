@@ -72,10 +72,10 @@ TABLE = {
     "stop_token": "stop_callback stop_source stop_token",
     "thread": "jthread this_thread thread",
     "tuple": "apply forward_as_tuple get ignore make_tuple tie tuple tuple_cat tuple_element tuple_element_t tuple_size tuple_size_v",
-    "type_traits": "common_type_t conditional_t decay_t has_unique_object_representations_v enable_if_t false_type integral_constant invoke_result_t is_arithmetic_v is_base_of_v "
-                   "is_const_v is_constant_evaluated is_empty_v is_enum_v is_floating_point_v is_integral_v is_invocable_v is_same_v is_signed_v "
+    "type_traits": "bool_constant common_type_t conditional_t decay_t has_unique_object_representations_v enable_if_t false_type integral_constant invoke_result_t is_arithmetic_v is_base_of_v "
+                   "is_const_v is_constant_evaluated is_empty_v is_enum_v is_floating_point_v is_integral_v is_invocable_v is_pointer_v is_same_v is_signed_v "
                    "is_trivially_copyable_v is_trivially_destructible_v is_unsigned_v is_void_v make_signed_t make_unsigned_t remove_const_t "
-                   "remove_cvref_t remove_reference_t true_type type_identity_t underlying_type_t void_t",
+                   "remove_cvref_t remove_pointer_t remove_reference_t true_type type_identity_t underlying_type_t void_t",
     "unordered_map": "unordered_map erase_if",
     "unordered_set": "unordered_set",
     "utility": "as_const cmp_equal cmp_greater cmp_less exchange forward get in_place in_range index_sequence index_sequence_for integer_sequence "

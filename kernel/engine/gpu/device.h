@@ -1,5 +1,5 @@
 // A device has memory of its own and runs kernels (program/) in the order in which they are asked for. It is
-// one of OpenCL (open_cl.h), or in the tests the same kernels as C++.
+// one of OpenCL (open_cl.h) or of CUDA (cuda.h), or in the tests the same kernels as C++.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +58,7 @@ using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory tha
 
 // A program of others, whose kernels work on the same memory: the picture's (render/device).
 struct OtherProgram {
-  std::string text;                    // OpenCL C, with the dialect
+  std::string text;                    // in the dialect of program/
   std::span<const char* const> names;  // of its kernels
   std::string options;                 // for the compiler: " -D NAME=value"
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -10,8 +9,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
+#include <utility>
 
+#include "kernel/engine/gpu/cuda.h"
+#include "kernel/engine/gpu/cuda_library.h"
 #include "kernel/engine/gpu/open_cl.h"
 #include "kernel/engine/gpu/stepper.h"
 
@@ -31,31 +32,53 @@ std::optional<int> limit(const char* name) {
   return value;
 }
 
-OpenClDevice limited(OpenClDevice device) {
+template <class Device>
+Device limited(Device device) {
   if (const auto most = limit("VOXMELT_DEVICE_MEMORY"))
     device.memory = std::min(device.memory, static_cast<std::uint64_t>(*most) << 20);
   return device;
 }
 
+// `device` must outlive the registry.
+template <class Device>
+step::Implementation implementation(std::string name, std::string_view kind, bool is_card,
+                                    const Device& device) {
+  return {
+      std::move(name),
+      device.name + std::string(kind) + ", " + std::to_string(device.memory >> 20) + " MiB, " + device.driver,
+      [&device](
+          const rule::Parameters& parameters, state::Grid grid,
+          const step::Tuning& /*threads and tiles are the device's*/) -> std::unique_ptr<step::Stepper> {
+        const Constants constants = constants_of(parameters, Shape(grid));
+        return std::make_unique<Stepper>(
+            open(limited(device), &constants, limit("VOXMELT_DEVICE_PATIENCE").value_or(120)), parameters,
+            grid);
+      },
+      true,
+      true,
+      is_card};
+}
+
 }  // namespace
 
 void add_implementations(step::Registry& registry) {
-  const std::vector<OpenClDevice>& devices = open_cl_devices();
-  for (std::size_t number = 0; number < devices.size(); ++number) {
-    const OpenClDevice& device = devices[number];
-    registry.add({"gpu:" + std::to_string(number),
-                  device.name + (device.is_processor ? " (a processor), " : ", ") +
-                      std::to_string(device.memory >> 20) + " MiB, " + device.driver,
-                  [&device](const rule::Parameters& parameters, state::Grid grid,
-                            const step::Tuning& /*threads and tiles are the device's*/)
-                      -> std::unique_ptr<step::Stepper> {
-                    const Constants constants = constants_of(parameters, Shape(grid));
-                    return std::make_unique<Stepper>(
-                        open(limited(device), &constants, limit("VOXMELT_DEVICE_PATIENCE").value_or(120)),
-                        parameters, grid);
-                  },
-                  true, true, device.is_card});
+  int number = 0;
+  for (const OpenClDevice& device : open_cl_devices())
+    registry.add(implementation("gpu:" + std::to_string(number++),
+                                device.is_processor ? " (a processor)" : "", device.is_card, device));
+  number = 0;
+  for (const CudaDevice& device : cuda_devices()) {
+    registry.add(
+        implementation(number == 0 ? "gpu:cuda" : "gpu:cuda:" + std::to_string(number), "", true, device));
+    ++number;
   }
+}
+
+std::string missing_for_cuda() {
+  if (cuda_library() == nullptr) return "this machine has no driver of CUDA (libcuda.so.1)";
+  if (nvrtc_library() == nullptr)
+    return "this machine has no compiler of CUDA (libnvrtc.so, of NVIDIA's toolkit)";
+  return cuda_devices().empty() ? "the driver of CUDA has no device" : "";
 }
 
 }  // namespace voxmelt::gpu

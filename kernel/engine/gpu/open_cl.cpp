@@ -203,8 +203,9 @@ class OpenClQueue final : public Device {
   }
 
   void compile(Program& program, const std::string& text, const std::string& options) {
-    const char* begin = text.data();
-    const std::size_t size = text.size();
+    const std::string whole = open_cl_dialect() + text;
+    const char* begin = whole.data();
+    const std::size_t size = whole.size();
     cl_int code = CL_SUCCESS;
     program = Program(library().clCreateProgramWithSource(context_.get(), 1, &begin, &size, &code));
     check(code, "take the program");

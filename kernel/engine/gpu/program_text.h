@@ -1,4 +1,5 @@
-// The source of all kernels, for a compiler of OpenCL C (program/). It is embedded at build.
+// The source of all kernels (program/), and what comes before it for each compiler. Both are embedded at
+// build.
 #pragma once
 
 #include <string>
@@ -6,5 +7,7 @@
 namespace voxmelt::gpu {
 
 std::string program_text();
+std::string open_cl_dialect();
+std::string cuda_dialect();
 
 }  // namespace voxmelt::gpu

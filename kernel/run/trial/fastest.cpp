@@ -186,7 +186,10 @@ namespace {
 
 Choice device_named(const std::string& name) {
   const std::vector<step::Implementation>& all = devices().all();
-  if (all.empty()) throw std::invalid_argument("this machine has no device of OpenCL");
+  if (name.starts_with("gpu:cuda"))
+    if (const std::string missing = missing_for_cuda(); !missing.empty())
+      throw std::invalid_argument(missing);
+  if (all.empty()) throw std::invalid_argument("this machine has no device of OpenCL or CUDA");
   const step::Implementation* found = name == "gpu" ? &all.front() : devices().find(name);
   if (found == nullptr)
     throw std::invalid_argument("this machine has " + all.front().name +

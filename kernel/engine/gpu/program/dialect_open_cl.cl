@@ -2,6 +2,7 @@
 #define KERNEL(name) __kernel __attribute__((reqd_work_group_size(32, 4, 1))) void name
 #define GLOBAL __global
 #define LOCAL __local
+#define SHARED __local
 #define PRIVATE __private
 #define FN static
 #define TABLE __constant

@@ -239,8 +239,8 @@ KERNEL(add_light)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GL
                   int way_z, uint power_low, uint power_high) {
   if (KINDS == 0) return;  // such a program leaves out all of this
   SCRATCH
-  LOCAL ushort looking[BRICK_CELLS];
-  LOCAL int many[1];
+  SHARED ushort looking[BRICK_CELLS];
+  SHARED int many[1];
   Source source = {kind, {at_x, at_y, at_z}, {way_x, way_y, way_z}, radius, (ulong)power_high << 32 | power_low};
   long cut = 0, rays = 0;
   for (int listed = GROUP; listed < counts[FULL]; listed += GROUPS) {

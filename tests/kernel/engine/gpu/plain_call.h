@@ -5,8 +5,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -67,5 +69,21 @@ struct Unpacked<kFunction> {
     (std::index_sequence_for<T...>());
   }
 };
+
+// The same for a driver that has a place for each argument, as CUDA's. It takes them at once, and calls
+// later.
+template <auto kFunction>
+struct Bound;
+template <class... T, void (*kFunction)(T...)>
+struct Bound<kFunction> {
+  static std::function<void()> take(void** places) {
+    return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+      return
+          [values = std::tuple<T...>(*static_cast<T*>(places[kIndex])...)] { std::apply(kFunction, values); };
+    }
+    (std::index_sequence_for<T...>());
+  }
+};
+using Take = std::function<void()> (*)(void** places);
 
 }  // namespace voxmelt::gpu

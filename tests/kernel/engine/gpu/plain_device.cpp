@@ -1,5 +1,6 @@
 #include "tests/kernel/engine/gpu/plain_device.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -19,13 +21,16 @@ namespace {
 
 #include "kernel/engine/gpu/program/all.cl"
 
+// All kernels in the order of kKernelNames.
+#define ALL_KERNELS(DO)                                                                              \
+  DO(list_bricks), DO(find_matter), DO(vent), DO(drain), DO(border), DO(conduct), DO(exchange),      \
+      DO(copy_heat), DO(find_cold), DO(melt), DO(gravity), DO(find_patterns), DO(apply_patterns),    \
+      DO(settle), DO(count_substeps), DO(spread_runs), DO(begin_relaxing), DO(relax), DO(put_light), \
+      DO(find_cubes), DO(find_blocks), DO(add_light), DO(share_light), DO(copy_words)
 #define CALL(name) (&Unpacked<&(name)>::call)
-constexpr Call kCalls[] = {CALL(list_bricks),    CALL(find_matter), CALL(vent),           CALL(drain),
-                           CALL(border),         CALL(conduct),     CALL(exchange),       CALL(copy_heat),
-                           CALL(find_cold),      CALL(melt),        CALL(gravity),        CALL(find_patterns),
-                           CALL(apply_patterns), CALL(settle),      CALL(count_substeps), CALL(spread_runs),
-                           CALL(begin_relaxing), CALL(relax),       CALL(put_light),      CALL(find_cubes),
-                           CALL(find_blocks),    CALL(add_light),   CALL(share_light),    CALL(copy_words)};
+constexpr Call kCalls[] = {ALL_KERNELS(CALL)};
+#define TAKE(name) (&Bound<&(name)>::take)
+constexpr Take kTakes[] = {ALL_KERNELS(TAKE)};
 static_assert(std::size(kCalls) == std::size(kKernelNames));
 
 class PlainDevice final : public Device {
@@ -86,6 +91,11 @@ class PlainDevice final : public Device {
 
 std::unique_ptr<Device> plain_device(int threads, std::span<const Call> others) {
   return std::make_unique<PlainDevice>(threads, others);
+}
+
+Take plain_kernel(std::string_view name) {
+  const auto found = std::ranges::find(kKernelNames, name);
+  return found == std::end(kKernelNames) ? nullptr : kTakes[found - std::begin(kKernelNames)];
 }
 
 }  // namespace voxmelt::gpu

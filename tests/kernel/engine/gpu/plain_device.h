@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "kernel/engine/gpu/device.h"
 #include "tests/kernel/engine/gpu/plain_call.h"
@@ -12,5 +13,9 @@ namespace voxmelt::gpu {
 
 // `others` are the kernels of another program, in the order of its names.
 std::unique_ptr<Device> plain_device(int threads, std::span<const Call> others = {});
+
+// Returns a kernel of kernel/engine/gpu/program by its name, or null. It works on the group that `place`
+// tells.
+Take plain_kernel(std::string_view name);
 
 }  // namespace voxmelt::gpu

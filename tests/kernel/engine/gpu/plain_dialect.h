@@ -20,6 +20,7 @@ ulong mul_high(ulong a, ulong b) { return static_cast<ulong>(Wide{a} * b >> 64);
 #define KERNEL(name) void name
 #define GLOBAL
 #define LOCAL
+#define SHARED
 #define PRIVATE
 #define FN inline
 #define TABLE constexpr
