@@ -24,6 +24,8 @@ class Memory {
 // All kernels of program/, in any order.
 enum class Kernel {
   list_bricks,
+  list_awake,
+  list_givers,
   find_matter,
   vent,
   drain,
@@ -36,6 +38,7 @@ enum class Kernel {
   gravity,
   find_patterns,
   apply_patterns,
+  take_over,
   settle,
   count_substeps,
   spread_runs,
@@ -49,10 +52,11 @@ enum class Kernel {
   copy_words  // for measurements
 };
 inline constexpr const char* kKernelNames[] = {
-    "list_bricks",    "find_matter", "vent",           "drain",       "border",         "conduct",
-    "exchange",       "copy_heat",   "find_cold",      "melt",        "gravity",        "find_patterns",
-    "apply_patterns", "settle",      "count_substeps", "spread_runs", "begin_relaxing", "relax",
-    "put_light",      "find_cubes",  "find_blocks",    "add_light",   "share_light",    "copy_words"};
+    "list_bricks", "list_awake",     "list_givers",    "find_matter", "vent",       "drain",
+    "border",      "conduct",        "exchange",       "copy_heat",   "find_cold",  "melt",
+    "gravity",     "find_patterns",  "apply_patterns", "take_over",   "settle",     "count_substeps",
+    "spread_runs", "begin_relaxing", "relax",          "put_light",   "find_cubes", "find_blocks",
+    "add_light",   "share_light",    "copy_words"};
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 

@@ -46,13 +46,13 @@ step::Implementation implementation(std::string name, std::string_view kind, boo
   return {
       std::move(name),
       device.name + std::string(kind) + ", " + std::to_string(device.memory >> 20) + " MiB, " + device.driver,
-      [&device](
-          const rule::Parameters& parameters, state::Grid grid,
-          const step::Tuning& /*threads and tiles are the device's*/) -> std::unique_ptr<step::Stepper> {
+      [&device](const rule::Parameters& parameters, state::Grid grid,
+                const step::Tuning& tuning /*threads and tiles are the device's*/)
+          -> std::unique_ptr<step::Stepper> {
         const Constants constants = constants_of(parameters, Shape(grid));
         return std::make_unique<Stepper>(
             open(limited(device), &constants, limit("VOXMELT_DEVICE_PATIENCE").value_or(120)), parameters,
-            grid);
+            grid, tuning.sleep);
       },
       true,
       true,

@@ -30,7 +30,7 @@ void Stepper::find_irradiance(std::uint32_t step) {
   }
   own_light_ = true;
   device_->clear(*irradiance_, 2 * cells);
-  make_lists();
+  list_bricks();
   device_->run(Kernel::find_cubes, groups_, {constants_.get(), flags_.get(), cubes_.get()});
   device_->run(Kernel::find_blocks, groups_, {constants_.get(), cubes_.get(), blocks_.get()});
   for (const rule::HeatSource& path : parameters_.heat.sources) {
@@ -38,7 +38,8 @@ void Stepper::find_irradiance(std::uint32_t step) {
     if (source.power > 0) add_light(source, path.kind);
   }
   device_->run(Kernel::share_light, groups_,
-               {constants_.get(), amount_.now.get(), irradiance_.get(), full_.get(), counts_.get()});
+               {constants_.get(), amount_.now.get(), irradiance_.get(), full_.get(), counts_.get(),
+                moments_.get(), next_moment()});
 }
 
 void Stepper::add_light(const rule::SourceKey& source, rule::SourceKind kind) {
@@ -63,11 +64,11 @@ step::RayCounts Stepper::count_rays() {
   return ray_counts_;
 }
 
-// Sends the words of 64 cells that are new, or all of it if nobody says which.
-void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance) {
-  if (irradiance == nullptr) return;
+// Sends the words of 64 cells that are new, or all of it if nobody says which. Tells if it has sent any.
+bool Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance) {
+  if (irradiance == nullptr) return false;
   if (std::exchange(own_light_, false)) knows_light_ = false;
-  if (knows_light_ && !parameters_.heat.is_visibility_step(step)) return;
+  if (knows_light_ && !parameters_.heat.is_visibility_step(step)) return false;
   const std::optional<state::ChangedRows> told = std::exchange(new_light_, {});
   if (!knows_light_ || !told) {
     const auto& numbers = in_flight(packed(*irradiance, shape_));
@@ -75,10 +76,10 @@ void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irra
     device_->write(*irradiance_, numbers.data(), 2 * numbers.size());
     in_flight_.reset();
     knows_light_ = true;
-    return;
+    return true;
   }
   const PackedWords& words = in_flight(packed_words(*irradiance, *told, shape_));
-  if (words.places.empty()) return;
+  if (words.places.empty()) return false;
   const std::size_t count = words.places.size();
   if (count > light_room_) {
     light_room_ = 2 * count;
@@ -90,6 +91,7 @@ void Stepper::upload_irradiance(std::uint32_t step, const step::Irradiance* irra
   device_->run(Kernel::put_light, groups_,
                {constants_.get(), light_places_.get(), light_words_.get(), irradiance_.get(),
                 static_cast<std::int32_t>(count)});
+  return true;
 }
 
 }  // namespace voxmelt::gpu

@@ -71,10 +71,12 @@ state::LedgerTerms<std::int64_t> terms_of(const std::int64_t* slot) {
 
 }  // namespace
 
-Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid)
+Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid,
+                 bool sleep)
     : device_(std::move(device)),
       parameters_(parameters),
       shape_(grid),
+      sleep_(sleep),
       kinds_(source_kinds(parameters.heat)) {
   if (shape_.cells > std::numeric_limits<std::int32_t>::max())
     throw DeviceError("the scene's grid is too large for a device: 2^31 cells are the most");
@@ -108,9 +110,9 @@ Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& paramet
     for (Buffer* field : {&impetus_, &change_, &heads_.now, &heads_.next}) *field = allocate(4 * cells);
   }
   const std::size_t all = shape_.bricks.cells();
-  for (Buffer* field : {&matter_, &coming_}) *field = allocate(all);
-  for (Buffer* field : {&full_, &near_, &columns_}) *field = allocate(4 * all);
-  for (Buffer* counts : {&counts_, &other_counts_}) *counts = allocate(3 * sizeof(std::int32_t));
+  moments_ = allocate(sizeof(std::int32_t) * kMoments * all);
+  for (Buffer* field : {&full_, &near_, &giving_, &columns_}) *field = allocate(4 * all);
+  for (Buffer* counts : {&counts_, &other_counts_}) *counts = allocate(4 * sizeof(std::int32_t));
   most_ = allocate(sizeof(std::int32_t));
   books_ = allocate(sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
 }
@@ -147,11 +149,7 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   both(energy_, state.energy);
   both(heat_, state.heat);
   device_->clear(*books_, sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
-  for (Buffer* bricks : {&matter_, &coming_}) device_->clear(**bricks, shape_.bricks.cells());
-  for (Buffer* field : {&pattern_, &transient_})
-    if (*field) device_->clear(**field, static_cast<std::size_t>(shape_.cells));
-  device_->run(Kernel::find_matter, groups_,
-               {constants_.get(), flags_.get(), amount_.now.get(), matter_.get()});
+  forget_moments();
   ledger_ = ledger;
   steps_in_books_ = 0;
   knows_light_ = false;
@@ -202,33 +200,39 @@ void Stepper::collect_books() {
 
 void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
   version_ = new_version();
+  if (moment_ > kLastMoment) forget_moments();
   const step::Cadence cadence = count_substeps();
   // Under the paper's law, spread clears what melt found.
   if (transient_ && !is_paper(parameters_))
     device_->clear(*transient_, static_cast<std::size_t>(shape_.cells));
+  if (parameters_.heat.enabled && upload_irradiance(step, irradiance)) awake_.all = true;
   source(step);
-  make_lists();
+  list_awake();
   if (parameters_.open_border)
     device_->run(Kernel::border, groups_,
                  {constants_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
-                  books_.get(), full_.get(), counts_.get()});
+                  moments_.get(), books_.get(), full_.get(), counts_.get(), next_moment()});
   if (parameters_.heat.enabled) {
-    heat(step, irradiance);
+    heat(step, irradiance != nullptr || own_light_);
     melt();
+    if (audits_) audit_heat();
   }
   if (is_paper(parameters_)) {
     gravity(step);
-    make_lists();
+    if (audits_) audit_gravity();
+    list_givers();
     spread(step);
+    if (audits_) audit_spread();
   } else {
+    falls_from_ = 0;  // nothing sleeps there
     for (int k = 0; k < cadence.substeps; ++k) {
-      if (k > 0) make_lists();
+      if (k > 0) list_bricks();
       settle(step, k, cadence);
-      make_lists();
+      list_bricks();
       if (cadence.stages > 1) relax(cadence.stages);
       spread_runs(step, k, cadence);
     }
-    make_lists();
+    list_bricks();
     gravity(step);
   }
   // A slot of the books grows by less than 2^32 per cell and rule, of which there are some 16 in a step.
@@ -239,11 +243,11 @@ void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
 }
 
 // Lists the bricks that hold matter, those that it may reach, and the columns.
-void Stepper::make_lists() {
+void Stepper::list_bricks() {
   counts_.swap(other_counts_);
   device_->run(Kernel::list_bricks, groups_,
-               {constants_.get(), matter_.get(), coming_.get(), full_.get(), near_.get(), columns_.get(),
-                counts_.get(), other_counts_.get()});
+               {constants_.get(), moments_.get(), full_.get(), near_.get(), columns_.get(), counts_.get(),
+                other_counts_.get()});
 }
 
 void Stepper::source(std::uint32_t step) {
@@ -261,7 +265,7 @@ void Stepper::source(std::uint32_t step) {
                   amount_.now.get(),
                   energy_.now.get(),
                   heat_.now.get(),
-                  matter_.get(),
+                  moments_.get(),
                   books_.get(),
                   box.from[0],
                   box.from[1],
@@ -276,31 +280,31 @@ void Stepper::source(std::uint32_t step) {
                   std::int32_t{vent.rate},
                   std::int32_t{vent.temperature},
                   std::int32_t{vent.energy},
-                  rule::dither(step)});
+                  rule::dither(step),
+                  next_moment()});
   }
   for (const rule::Drain& drain : parameters_.drains) {
     const RegionBox box = box_of(drain.region, shape_.grid);
     if (box.empty() || !rule::is_open(drain.from, drain.until, step)) continue;
     const rule::Position& at = drain.region.at;
-    device_->run(
-        Kernel::drain, groups_for(box),
-        {constants_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(), books_.get(),
-         box.from[0], box.from[1], box.from[2], box.size[0], box.size[1], box.size[2], as_int(at.x),
-         as_int(at.y), as_int(at.z), as_int(drain.region.radius), std::int32_t{drain.rate}});
+    device_->run(Kernel::drain, groups_for(box),
+                 {constants_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
+                  moments_.get(), books_.get(), box.from[0], box.from[1], box.from[2], box.size[0],
+                  box.size[1], box.size[2], as_int(at.x), as_int(at.y), as_int(at.z),
+                  as_int(drain.region.radius), std::int32_t{drain.rate}, next_moment()});
   }
 }
 
 // The heats go from one memory to the other, pass by pass. In the end they are where they were: what no
 // kernel visits is right there alone.
-void Stepper::heat(std::uint32_t step, const step::Irradiance* irradiance) {
+void Stepper::heat(std::uint32_t step, bool radiates) {
   const rule::Heat& heat = parameters_.heat;
-  upload_irradiance(step, irradiance);
-  const bool radiates = irradiance != nullptr || own_light_;
   const Memory *from = heat_.now.get(), *to = heat_.next.get();
   const auto conduct = [&](int axes, std::int32_t weight) {
-    device_->run(Kernel::conduct, groups_,
-                 {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), from, to, books_.get(),
-                  full_.get(), counts_.get(), axes, weight, rule::dither(step)});
+    device_->run(
+        Kernel::conduct, groups_,
+        {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), from, to, books_.get(),
+         full_.get(), counts_.get(), moments_.get(), axes, weight, rule::dither(step), next_moment()});
     std::swap(from, to);
   };
   conduct(3, heat.weight_face);
@@ -310,10 +314,10 @@ void Stepper::heat(std::uint32_t step, const step::Irradiance* irradiance) {
   const bool back = from == heat_.next.get(), alone = heat.convection == 0;
   if (!back && alone) to = from;  // each cell by itself, in place
   if (back || !alone || radiates || heat.air)
-    device_->run(
-        Kernel::exchange, groups_,
-        {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), from, to, irradiance_.get(),
-         books_.get(), full_.get(), counts_.get(), radiates ? 1 : 0, rule::dither(step)});
+    device_->run(Kernel::exchange, groups_,
+                 {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), from, to,
+                  irradiance_.get(), books_.get(), full_.get(), counts_.get(), moments_.get(),
+                  radiates ? 1 : 0, rule::dither(step), next_moment()});
   if (!back && !alone)
     device_->run(Kernel::copy_heat, groups_, {constants_.get(), to, from, full_.get(), counts_.get()});
 }
@@ -322,36 +326,39 @@ void Stepper::melt() {
   if (parameters_.freezes())
     device_->run(Kernel::find_cold, groups_,
                  {constants_.get(), flags_.get(), amount_.now.get(), heat_.now.get(), transient_.get(),
-                  full_.get(), counts_.get()});
-  device_->run(Kernel::melt, groups_,
-               {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(),
-                heat_.now.get(), transient_.get(), books_.get(), full_.get(), counts_.get()});
+                  full_.get(), counts_.get(), moments_.get(), next_moment()});
+  device_->run(
+      Kernel::melt, groups_,
+      {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
+       transient_.get(), books_.get(), full_.get(), counts_.get(), moments_.get(), next_moment()});
 }
 
 void Stepper::gravity(std::uint32_t step) {
   device_->run(Kernel::gravity, groups_,
                {constants_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
-                transient_.get(), run_.get(), books_.get(), matter_.get(), columns_.get(), counts_.get(),
-                rule::dither(step)});
+                transient_.get(), run_.get(), books_.get(), moments_.get(), columns_.get(), counts_.get(),
+                rule::dither(step), falls_from_, next_moment()});
 }
 
 void Stepper::spread(std::uint32_t step) {
   device_->run(Kernel::find_patterns, groups_,
                {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(),
-                heat_.now.get(), transient_.get(), pattern_.get(), near_.get(), counts_.get(), as_int(step)});
-  device_->run(Kernel::apply_patterns, groups_,
-               {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(),
-                heat_.now.get(), amount_.next.get(), energy_.next.get(), heat_.next.get(), transient_.get(),
-                pattern_.get(), coming_.get(), books_.get(), near_.get(), counts_.get(), rule::dither(step)});
-  turn_over();
+                heat_.now.get(), transient_.get(), pattern_.get(), moments_.get(), near_.get(), giving_.get(),
+                counts_.get(), as_int(step), next_moment()});
+  device_->run(
+      Kernel::apply_patterns, groups_,
+      {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
+       amount_.next.get(), energy_.next.get(), heat_.next.get(), pattern_.get(), moments_.get(), books_.get(),
+       giving_.get(), counts_.get(), rule::dither(step), next_moment()});
+  device_->run(Kernel::take_over, groups_,
+               {constants_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(), amount_.next.get(),
+                energy_.next.get(), heat_.next.get(), giving_.get(), counts_.get()});
 }
 
-// The next state becomes the present one.
+// The next state of the viscous law becomes the present one.
 void Stepper::turn_over() {
   amount_.swap();
-  energy_.swap();
   heat_.swap();
-  matter_.swap(coming_);
 }
 
 step::Cadence Stepper::count_substeps() {
@@ -359,10 +366,10 @@ step::Cadence Stepper::count_substeps() {
   if (!may_count(parameters_)) return {is_paper(parameters_) ? 1 : law.substeps};
   const std::int32_t one = 1;
   std::int32_t most = 0;
-  make_lists();
+  list_bricks();
   device_->write(*most_, &one, sizeof one);
   device_->run(Kernel::count_substeps, groups_,
-               {constants_.get(), flags_.get(), amount_.now.get(), heat_.now.get(), matter_.get(),
+               {constants_.get(), flags_.get(), amount_.now.get(), heat_.now.get(), moments_.get(),
                 columns_.get(), counts_.get(), most_.get()});
   device_->read(*most_, &most, sizeof most);
   const int substeps = law.counts_substeps() ? std::min<int>(most, law.substeps_max) : law.substeps;
@@ -376,8 +383,8 @@ void Stepper::settle(std::uint32_t step, int substep, step::Cadence cadence) {
   device_->clear(*run_, 2 * static_cast<std::size_t>(shape_.cells));
   device_->run(Kernel::settle, groups_,
                {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), heat_.now.get(),
-                amount_.next.get(), run_.get(), records_.get(), books_.get(), matter_.get(), columns_.get(),
-                counts_.get(), cadence.substeps, how.reach(), how.bits(), dither});
+                amount_.next.get(), run_.get(), records_.get(), books_.get(), moments_.get(), columns_.get(),
+                counts_.get(), cadence.substeps, how.reach(), how.bits(), dither, next_moment()});
 }
 
 void Stepper::relax(int stages) {
@@ -400,8 +407,9 @@ void Stepper::spread_runs(std::uint32_t step, int substep, step::Cadence cadence
   device_->run(Kernel::spread_runs, groups_,
                {constants_.get(),   tables_.get(),    flags_.get(),     amount_.now.get(), heat_.now.get(),
                 amount_.next.get(), heat_.next.get(), transient_.get(), run_.get(),        records_.get(),
-                heads_.now.get(),   coming_.get(),    books_.get(),     near_.get(),       counts_.get(),
-                as_int(step),       substep,          cadence.substeps, cadence.stages,    dither});
+                heads_.now.get(),   moments_.get(),   books_.get(),     near_.get(),       counts_.get(),
+                as_int(step),       substep,          cadence.substeps, cadence.stages,    dither,
+                next_moment()});
   turn_over();
 }
 

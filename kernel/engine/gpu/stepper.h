@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "kernel/automaton/state/changed_rows.h"
 #include "kernel/automaton/state/ledger.h"
@@ -17,10 +19,14 @@
 
 namespace voxmelt::gpu {
 
+inline constexpr std::size_t kMoments = 10;  // of a brick (program/lists.cl)
+
 class Stepper final : public step::DeviceStepper {
  public:
   // The device has a program for these parameters and this grid, or one for any scene.
-  Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid);
+  // Bricks of cells that provably stay as they are sleep, unless `sleep` is false.
+  Stepper(std::shared_ptr<Device> device, const rule::Parameters& parameters, state::Grid grid,
+          bool sleep = true);
 
   void change_sources(const rule::Parameters& parameters) override;
   void tell_irradiance(const state::ChangedRows& changed) override;
@@ -33,6 +39,17 @@ class Stepper final : public step::DeviceStepper {
   void download_masks(state::Volume& volume) override;
   void download(state::Volume& volume, state::Ledger& ledger) override;
 
+  // Counts the bricks in which the last step had work, under the paper's law, beside those that hold matter.
+  struct Work {
+    int with_matter = 0, beside_matter = 0, heat = 0, gravity = 0, spread = 0, giving = 0;
+  };
+  Work work();
+
+  // From now on every brick is computed that holds matter, and those that would have slept must stay as they
+  // are. fault() names the first one that does not.
+  void audit_sleep();
+  const std::string& fault() const { return fault_; }
+
   // Returns where the state lies, for who reads it there. It holds until the next step or upload.
   StateOnDevice where() const;
 
@@ -44,9 +61,24 @@ class Stepper final : public step::DeviceStepper {
   };
 
   Buffer allocate(std::size_t bytes);
-  void make_lists();
+  struct Listing {  // when a list was made, and if the next one takes all bricks that hold matter
+    std::int32_t since = 0;
+    bool all = true;
+  };
+  void list_bricks();
+  void list_awake();
+  void list_givers();
+  std::int32_t next_moment() { return ++moment_; }
+  void forget_moments();
+  std::vector<std::int32_t> read_moments();
+  template <class Visit>
+  void for_each_brick(const Visit& visit);
+  void find_fault(const char* phase, std::int64_t brick);
+  void audit_heat();
+  void audit_gravity();
+  void audit_spread();
   void source(std::uint32_t step);
-  void heat(std::uint32_t step, const step::Irradiance* irradiance);
+  void heat(std::uint32_t step, bool radiates);
   void melt();
   void gravity(std::uint32_t step);
   void spread(std::uint32_t step);
@@ -56,7 +88,7 @@ class Stepper final : public step::DeviceStepper {
   void relax(int stages);
   void spread_runs(std::uint32_t step, int substep, step::Cadence cadence);
   void turn_over();
-  void upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
+  bool upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
   void collect_books();
   template <class T>
   T& in_flight(T value);
@@ -74,8 +106,17 @@ class Stepper final : public step::DeviceStepper {
   Twice amount_, energy_, heat_;
   Buffer run_, records_, leveling_, impetus_, change_;
   Twice heads_;
-  Buffer matter_, coming_;  // bricks that hold matter, and those that will
-  Buffer full_, near_, columns_, counts_, other_counts_, most_, books_;
+  // Moments fit 32 bits until they begin anew. The first of them are not far from that, so that every longer
+  // run comes past it.
+  static constexpr std::int32_t kLastMoment = 1 << 30;
+  std::int32_t moment_ = kLastMoment - 500;
+  bool sleep_;
+  Listing awake_, givers_;
+  bool audits_ = false, awake_known_ = false, givers_known_ = false;  // known: the list tells who sleeps
+  std::string fault_;
+  std::int32_t falls_from_ = 0;  // a brick that was woken then or later is awake for gravity
+  Buffer moments_;               // of each brick (program/lists.cl)
+  Buffer full_, near_, giving_, columns_, counts_, other_counts_, most_, books_;
   bool knows_light_ = false;  // the device has the irradiance of the last step of visibility
   std::optional<state::ChangedRows> new_light_;  // what is new in it, if that was told
   Buffer light_places_, light_words_;

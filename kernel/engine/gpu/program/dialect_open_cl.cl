@@ -19,6 +19,7 @@
 #define NEXT(counter) atomic_inc(counter)
 #define RAISE_TO(number, least) atomic_max(number, least)
 #define LOOK(flag) (flag)
-#define RAISE(flag) ((flag) = 1)
+#define STAMP(moment, now) ((moment) = (now))
+#define CLAIM(moment, now) atomic_xchg(moment, now)
 #define MUL_HIGH(a, b) mul_hi(a, b)
 #define LEADING_ZEROS(a) ((int)clz(a))

@@ -74,18 +74,23 @@ FN Held held(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL co
 }
 
 FN void put_back(CONSTANTS, Held cell, int brick, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
-                 GLOBAL uchar* matter) {
+                 MOMENTS, int now) {
   if (!cell.changed) return;
+  note(&MOVED_AT(brick), now);
   A[cell.i] = (ushort)cell.a;
   if (PAPER) E[cell.i] = (ushort)(cell.a > 0 ? cell.e : 0);
   if (HEAT) H[cell.i] = (ushort)(cell.a > 0 ? cell.h : 0);
-  if (cell.a > 0 && !LOOK(matter[brick])) RAISE(matter[brick]);
+  if (cell.a > 0) note(&MATTER_AT(brick), now);
+}
+
+FN int is_falling(CONSTANTS, MOMENTS, int n, int awake_since) {
+  return has_matter(P, moments, n) && LOOK(FALLS_AT(n)) >= awake_since;
 }
 
 // `run` says which cells are in a run of the viscous law; those do not fall.
 KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
-                GLOBAL const uchar* T, GLOBAL const ushort* run, GLOBAL long* books, GLOBAL uchar* matter,
-                GLOBAL const int* columns, GLOBAL const int* counts, int dither) {
+                GLOBAL const uchar* T, GLOBAL const ushort* run, GLOBAL long* books, MOMENTS,
+                GLOBAL const int* columns, GLOBAL const int* counts, int dither, int awake_since, int now) {
   SCRATCH
   FallBooks sums = {0, 0, 0};
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
@@ -94,9 +99,11 @@ KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushor
     Held low = held(P, F, A, E, H, bottom), high = held(P, F, A, E, H, bottom + ROW);
     while (y + 1 < NY) {
       int by = (y + 1) / BRICK_Y;
-      // Nothing moves in a brick without matter, if none climbs into it. Its uppermost cell is looked at next.
-      if ((y == 0 || (y + 1) % BRICK_Y == 0) && low.a <= ONE && !LOOK(matter[brick + by * BRICKS_X])) {
-        put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
+      // Nothing moves in a brick that sleeps or holds no matter, if none climbs into it and none has left the cell
+      // below it. Its uppermost cell is looked at next.
+      if ((y == 0 || (y + 1) % BRICK_Y == 0) && low.a <= ONE && !low.changed &&
+          !is_falling(P, moments, brick + by * BRICKS_X, awake_since)) {
+        put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, moments, now);
         y = imin(by * BRICK_Y + BRICK_Y - 1, NY - 1);
         low = held(P, F, A, E, H, bottom + y * ROW);
         high = held(P, F, A, E, H, low.i + ROW);
@@ -112,12 +119,12 @@ KERNEL(gravity)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushor
           if (flow > 0) push_up(P, &low, &high, flow, dither, &sums);
         }
       }
-      put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
+      put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, moments, now);
       low = high;
       high = next;
       ++y;
     }
-    put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, matter);
+    put_back(P, low, brick + y / BRICK_Y * BRICKS_X, A, E, H, moments, now);
   }
   if (PAPER) {
     book(books, scratch, ENERGY_ACCELERATED, sums.accelerated);

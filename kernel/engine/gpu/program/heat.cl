@@ -29,7 +29,7 @@ typedef struct {
 // One pass over a set of axes: reads `from`, writes `to`, in all cells of the bricks.
 KERNEL(conduct)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                 GLOBAL const ushort* from, GLOBAL ushort* to, GLOBAL long* books, GLOBAL const int* list,
-                GLOBAL const int* counts, int axes, int weight, int dither) {
+                GLOBAL const int* counts, MOMENTS, int axes, int weight, int dither, int now) {
   SCRATCH
   long conducted = 0, from_walls = 0;
   int weights = WEIGHTS + (axes == 3 ? 0 : axes == 6 ? 256 : 512);
@@ -42,7 +42,7 @@ KERNEL(conduct)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOB
       continue;
     }
     int material = (int)(f >> MATERIAL_SHIFT), own = temperature_of(P, tables, h, material);
-    int gain = 0, wall_gain = 0;
+    int gain = 0, wall_gain = 0, differs = 0;
     for (int k = 0; k < axes; ++k) {
       int step = axis_of(P, axes, k), offset = dither_part(dither, k, axes);
       for (int side = 0; side < 2; ++side) {
@@ -51,6 +51,7 @@ KERNEL(conduct)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOB
         int hj = from[j], wall = WALLS && (fj & INERT) != 0u && hj > 0;
         if (!wall && !is_matter(fj, A[j])) continue;
         int other = (int)(fj >> MATERIAL_SHIFT), there = temperature_of(P, tables, hj, other);
+        differs |= there != own;
         int w = MATERIALS ? tables[weights + material * 16 + (wall ? material : other)] : weight;
         int flow = side == 0 ? scaled(there - own, w, offset) : -scaled(own - there, w, offset);
         if (wall)
@@ -60,6 +61,7 @@ KERNEL(conduct)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOB
       }
     }
     to[i] = (ushort)(h + gain + wall_gain);
+    if (differs) note(&WARM_AT(brick), now);
     conducted += (long)gain * a;
     from_walls += (long)wall_gain * a;
   }
@@ -67,8 +69,9 @@ KERNEL(conduct)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOB
   if (WALLS) book(books, scratch, HEAT_WALLS, from_walls);
 }
 
-FN int rising(CONSTANTS, GLOBAL const int* tables, int lower, int upper, int dither) {
+FN int rising(CONSTANTS, GLOBAL const int* tables, int lower, int upper, int dither, PRIVATE int* restless) {
   int below = temperature_of(P, tables, lower, 0), above = temperature_of(P, tables, upper, 0);
+  *restless |= below > above;
   return below > above ? scaled(below - above, CONVECTION, dither) : 0;
 }
 
@@ -86,7 +89,7 @@ FN int fourth_power(int t) {
 // Convection reads `from` and so do all others; `to` may not be `from` where there is convection.
 KERNEL(exchange)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                  GLOBAL const ushort* from, GLOBAL ushort* to, GLOBAL const ushort* irradiance, GLOBAL long* books,
-                 GLOBAL const int* list, GLOBAL const int* counts, int radiates, int dither) {
+                 GLOBAL const int* list, GLOBAL const int* counts, MOMENTS, int radiates, int dither, int now) {
   SCRATCH
   long convected = 0, radiated = 0, warmed = 0, cooled = 0;
   FOR_LISTED_CELLS(list, counts[FULL]) {
@@ -94,16 +97,18 @@ KERNEL(exchange)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLO
     int h = from[i], a = A[i];
     uint f = F[i];
     if (is_matter(f, a)) {
+      int restless = 0;  // it changes now, or might at another step
       int material = (int)(f >> MATERIAL_SHIFT);
       if (CONVECTION > 0 && !is_blocked(f)) {
         int gain = 0, up = i + ROW, down = i - ROW;
-        if (is_liquid(F[down], A[down])) gain += rising(P, tables, from[down], h, dither);
-        if (is_liquid(F[up], A[up])) gain -= rising(P, tables, h, from[up], dither);
+        if (is_liquid(F[down], A[down])) gain += rising(P, tables, from[down], h, dither, &restless);
+        if (is_liquid(F[up], A[up])) gain -= rising(P, tables, h, from[up], dither, &restless);
         h += gain;
         convected += (long)gain * a;
       }
       if (radiates && (f & SOLID) != 0u) {
         int gain = imin((irradiance[i] * 4096 + dither) >> 16, HEAT_MAX - h);
+        restless |= irradiance[i] > 0;
         h += gain;
         radiated += (long)gain * a;
       }
@@ -112,17 +117,20 @@ KERNEL(exchange)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLO
         int rate = MATERIALS ? tables[MATERIAL_ROWS + material * MATERIAL_ROW + 4] : AIR_EXCHANGE;
         int difference = tables[AIR_TEMPERATURES + y] - temperature_of(P, tables, h, material);
         int gain = imin(scaled(difference, exposed_exchange(rate, n), dither), HEAT_MAX - h);
+        restless |= difference != 0;
         h += gain;
         warmed += (long)imax(0, gain) * a;
         cooled += (long)imax(0, -gain) * a;
         if (AIR_GLOW > 0) {
           difference = fourth_power(AIR_SKY) - fourth_power(temperature_of(P, tables, h, material));
           gain = imin(scaled(difference, exposed_exchange(AIR_GLOW, n), dither), HEAT_MAX - h);
+          restless |= difference != 0;
           h += gain;
           warmed += (long)imax(0, gain) * a;
           cooled += (long)imax(0, -gain) * a;
         }
       }
+      if (restless) note(&WARM_AT(brick), now);
     }
     to[i] = (ushort)h;
   }

@@ -273,11 +273,12 @@ KERNEL(add_light)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GL
 
 // What a cell takes in warms its own matter alone. It comes after all sources.
 KERNEL(share_light)(CONSTANTS, GLOBAL const ushort* A, GLOBAL ushort* irradiance, GLOBAL const int* list,
-                    GLOBAL const int* counts) {
+                    GLOBAL const int* counts, MOMENTS, int now) {
   FOR_LISTED_CELLS(list, counts[FULL]) {
     CELL
     uint sum = irradiance[i], most = IRRADIANCE_MAX;
     if (sum == 0) continue;
+    note(&WARM_AT(brick), now);
     uint amount = (uint)imax(1, A[i]), share = ONE * sum / amount;
     irradiance[i] = (ushort)(share < most ? share : most);
   }

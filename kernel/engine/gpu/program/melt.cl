@@ -1,20 +1,27 @@
 // Phase `melt` (docs/automaton.md, section 7). Cold cells are found before any mask changes.
 #define HAS_TRANSIENTS (HEAT && (FREEZING_POINT > 0 || (PAPER && SEES_SIDES)))
 
+// What it found before holds where it does not look.
 KERNEL(find_cold)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL const ushort* H, GLOBAL uchar* T,
-                  GLOBAL const int* list, GLOBAL const int* counts) {
+                  GLOBAL const int* list, GLOBAL const int* counts, MOMENTS, int now) {
   FOR_LISTED_CELLS(list, counts[FULL]) {
     CELL
     int a = A[i];
-    if (!is_liquid(F[i], a) || H[i] >= FREEZING_POINT) continue;
-    int touches = is_blocked(F[i + 1]) || is_blocked(F[i - 1]) || is_blocked(F[i + ROW]) || is_blocked(F[i - ROW]) ||
-                  is_blocked(F[i + SLICE]) || is_blocked(F[i - SLICE]);
-    T[i] = touches && a >= ONE - ONE / 64 ? FROZEN : SET;
+    uint found = 0;
+    if (is_liquid(F[i], a) && H[i] < FREEZING_POINT) {
+      int touches = is_blocked(F[i + 1]) || is_blocked(F[i - 1]) || is_blocked(F[i + ROW]) || is_blocked(F[i - ROW]) ||
+                    is_blocked(F[i + SLICE]) || is_blocked(F[i - SLICE]);
+      found = touches && a >= ONE - ONE / 64 ? FROZEN : SET;
+    }
+    if (T[i] == found) continue;
+    T[i] = (uchar)found;
+    wake(P, moments, brick, now);
   }
 }
 
 KERNEL(melt)(CONSTANTS, GLOBAL const int* tables, GLOBAL uchar* F, GLOBAL const ushort* A, GLOBAL ushort* E,
-             GLOBAL ushort* H, GLOBAL uchar* T, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts) {
+             GLOBAL ushort* H, GLOBAL uchar* T, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts,
+             MOMENTS, int now) {
   SCRATCH
   long melted = 0, frozen = 0, reheated = 0, melted_heat = 0;
   FOR_LISTED_CELLS(list, counts[FULL]) {
@@ -24,6 +31,7 @@ KERNEL(melt)(CONSTANTS, GLOBAL const int* tables, GLOBAL uchar* F, GLOBAL const 
     if (!is_matter(f, a)) continue;
     if (FREEZING_POINT > 0 && T[i] == FROZEN) {
       F[i] = SOLID;
+      wake(P, moments, brick, now);
       if (PAPER) {
         frozen += E[i];
         E[i] = 0;
@@ -34,6 +42,7 @@ KERNEL(melt)(CONSTANTS, GLOBAL const int* tables, GLOBAL uchar* F, GLOBAL const 
     if (h < from) continue;
     if ((f & SOLID) != 0u) {
       F[i] = 0;
+      wake(P, moments, brick, now);
       if (material != 0) {
         int after = imin(HEAT_MAX, h - from + tables[MATERIAL_ROWS + material * MATERIAL_ROW + 3]);
         melted_heat += (long)(after - h) * a;
@@ -47,6 +56,7 @@ KERNEL(melt)(CONSTANTS, GLOBAL const int* tables, GLOBAL uchar* F, GLOBAL const 
     } else if (PAPER && REHEAT > 0) {
       int e = E[i], gained = scaled(a - e, REHEAT, 0);
       E[i] = (ushort)(e + gained);
+      if (gained != 0) wake(P, moments, brick, now);
       reheated += gained;
     }
   }

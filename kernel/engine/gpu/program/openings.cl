@@ -12,7 +12,7 @@
   int i = cell_at(P, x, y, z);
 
 KERNEL(vent)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
-             GLOBAL uchar* matter, GLOBAL long* books, OPENING, int rate, int temperature, int energy, int dither) {
+             MOMENTS, GLOBAL long* books, OPENING, int rate, int temperature, int energy, int dither, int now) {
   SCRATCH
   long added = 0, added_energy = 0, added_heat = 0, rounded = 0;
   FOR_REGION {
@@ -31,7 +31,9 @@ KERNEL(vent)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* 
       added_heat += brought;
       H[i] = (ushort)mix((uint)before * H[i] + brought, (uint)(before + more), dither, &rounded);
     }
-    RAISE(matter[brick_of(P, x, y, z)]);
+    int brick = brick_of(P, x, y, z);
+    note(&MATTER_AT(brick), now);
+    note(&MOVED_AT(brick), now);
   }
   book(books, scratch, MASS_ADDED, added);
   if (PAPER) book(books, scratch, ENERGY_ADDED, added_energy);
@@ -45,10 +47,11 @@ typedef struct {
   long mass, energy, heat;
 } Removed;
 
-FN void drain_cell(CONSTANTS, int i, int rate, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
+// Returns what it takes.
+FN int drain_cell(CONSTANTS, int i, int rate, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
                    PRIVATE Removed* removed) {
   int taken = imin(rate, A[i]), left = A[i] - taken;
-  if (taken == 0) return;
+  if (taken == 0) return 0;
   removed->mass += taken;
   A[i] = (ushort)left;
   if (PAPER) {
@@ -60,6 +63,7 @@ FN void drain_cell(CONSTANTS, int i, int rate, GLOBAL ushort* A, GLOBAL ushort* 
     removed->heat += (long)taken * H[i];
     if (left == 0) H[i] = 0;
   }
+  return taken;
 }
 
 FN void book_removed(GLOBAL long* books, LOCAL long* scratch, Removed removed) {
@@ -69,24 +73,25 @@ FN void book_removed(GLOBAL long* books, LOCAL long* scratch, Removed removed) {
 }
 
 KERNEL(drain)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
-              GLOBAL long* books, OPENING, int rate) {
+              MOMENTS, GLOBAL long* books, OPENING, int rate, int now) {
   SCRATCH
   Removed removed = {0, 0, 0};
   FOR_REGION {
     REGION_CELL
-    if (!is_blocked(F[i])) drain_cell(P, i, rate, A, E, H, &removed);
+    if (!is_blocked(F[i]) && drain_cell(P, i, rate, A, E, H, &removed) > 0)
+      note(&MOVED_AT(brick_of(P, x, y, z)), now);
   }
   book_removed(books, scratch, removed);
 }
 
 KERNEL(border)(CONSTANTS, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H,
-               GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts) {
+               MOMENTS, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts, int now) {
   SCRATCH
   Removed removed = {0, 0, 0};
   FOR_LISTED_CELLS(list, counts[FULL]) {
     CELL
     if (x != 0 && x != NX - 1 && z != 0 && z != NZ - 1) continue;
-    if (!is_blocked(F[i])) drain_cell(P, i, AMOUNT_MAX, A, E, H, &removed);
+    if (!is_blocked(F[i]) && drain_cell(P, i, AMOUNT_MAX, A, E, H, &removed) > 0) wake(P, moments, brick, now);
   }
   book_removed(books, scratch, removed);
 }

@@ -140,17 +140,23 @@ FN Column shown_by(CONSTANTS, Run run, int bed, int h, int under_ceiling, int su
   return column;
 }
 
+FN int is_settled(GLOBAL const ushort* A, int row, int i, Run run) {
+  int same = 1;
+  for (int k = 0; k < run.n; ++k) same &= A[i + k * row] == settled(run.mass, run.n, k);
+  return same;
+}
+
 // `run` gets for each cell of a run its place in it, from 1 on. It is 0 elsewhere, and was so before.
 KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* H,
                GLOBAL ushort* came, GLOBAL ushort* run, GLOBAL Column* records, GLOBAL long* books,
-               GLOBAL uchar* matter, GLOBAL const int* columns, GLOBAL const int* counts, int substeps, int reach,
-               int bits, int dither) {
+               MOMENTS, GLOBAL const int* columns, GLOBAL const int* counts, int substeps, int reach,
+               int bits, int dither, int now) {
   SCRATCH
   SettleBooks sums = {0, 0, 0, 0, 0};
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
     for (int y = 0; y < NY; ++y) {
-      if (y % BRICK_Y == 0 && !LOOK(matter[brick_of(P, x, y, z)])) {
+      if (y % BRICK_Y == 0 && !has_matter(P, moments, brick_of(P, x, y, z))) {
         y += BRICK_Y - 1;  // no run begins without matter
         continue;
       }
@@ -158,7 +164,7 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
       if (is_blocked(F[i]) || !is_blocked(F[i - ROW])) continue;
       Run one = gathered(P, F, A, H, i);
       if (one.n == 0) continue;
-      int after = 0;
+      int after = 0, moves = !is_settled(A, ROW, i, one);
       if (HEAT) {
         if (one.keeps_order)
           move_in_order(P, A, H, came, i, one, dither);
@@ -175,13 +181,14 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
         if (HEAT) {
           int h = one.keeps_order ? H[at] : after;
           sums.rounded += (long)amount * h;
+          moves |= amount > 0 && H[at] != h;
           H[at] = (ushort)(amount > 0 ? h : 0);
         }
         if (amount == 0) continue;
         run[at] = (ushort)(k + 1);
-        int brick = brick_of(P, x, y + k, z);
-        if (!LOOK(matter[brick])) RAISE(matter[brick]);
+        note(&MATTER_AT(brick_of(P, x, y + k, z)), now);
       }
+      for (int k = 0; moves && k < one.n; ++k) note(&MOVED_AT(brick_of(P, x, y + k, z)), now);
       y += one.n - 1;
     }
   }
@@ -194,12 +201,12 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
 
 // Finds the most sub-steps that a run needs.
 KERNEL(count_substeps)(CONSTANTS, GLOBAL const uchar* F, GLOBAL const ushort* A, GLOBAL const ushort* H,
-                       GLOBAL const uchar* matter, GLOBAL const int* columns, GLOBAL const int* counts,
+                       MOMENTS, GLOBAL const int* columns, GLOBAL const int* counts,
                        GLOBAL int* most) {
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
     for (int y = 0; y < NY; ++y) {
-      if (y % BRICK_Y == 0 && !LOOK(matter[brick_of(P, x, y, z)])) {
+      if (y % BRICK_Y == 0 && !has_matter(P, moments, brick_of(P, x, y, z))) {
         y += BRICK_Y - 1;
         continue;
       }

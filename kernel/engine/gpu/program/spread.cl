@@ -22,16 +22,18 @@ FN int is_open(CONSTANTS, GLOBAL const uchar* F, int i, int d) {
   return d < 4 || !(is_blocked(F[i + dx]) && is_blocked(F[i + dz]));
 }
 
-// Finds the directions that each liquid cell gives to. It visits all bricks that spread does.
-// Everywhere else the patterns are 0.
+// Finds the directions that each liquid cell gives to, and lists the bricks that give or take. Where it does not look,
+// all patterns are 0: a brick with another one is restless. It also sees which bricks hold matter.
 KERNEL(find_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
-                      GLOBAL const ushort* E, GLOBAL const ushort* H, GLOBAL const uchar* T, GLOBAL uchar* pattern,
-                      GLOBAL const int* list, GLOBAL const int* counts, uint step) {
+                      GLOBAL const ushort* E, GLOBAL const ushort* H, GLOBAL uchar* T, GLOBAL uchar* pattern,
+                      MOMENTS, GLOBAL const int* list, GLOBAL int* giving, GLOBAL int* counts, uint step, int now) {
   FOR_LISTED_CELLS(list, counts[NEAR]) {
     CELL
     int a = A[i];
     uint bits = 0;
     int margin = -1;
+    if (is_matter(F[i], a)) note(&MATTER_AT(brick), now);
+    if (HAS_TRANSIENTS && T[i] != 0 && !(T[i] == SET && is_liquid(F[i], a))) T[i] = 0;
     if (is_liquid(F[i], a) && !(SUPPORT && is_air(F[i - ROW], A[i - ROW])) &&
         !(FREEZING_POINT > 0 && (T[i] & SET) != 0u)) {
       if (E[i] > THRESHOLD)
@@ -48,8 +50,15 @@ KERNEL(find_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F
         if (DOWNHILL && b + imax(flow, d >= 4 ? (9 * margin) >> 3 : margin) >= a) continue;
         bits |= 1u << d;
       }
-      if (bits != 0u) bits &= random_byte(P, tables, x, y, z, step);
+      if (bits != 0u) {
+        note(&RESTLESS_AT(brick), now);
+        bits &= random_byte(P, tables, x, y, z, step);
+      }
     }
+    if (bits != 0u) claim(P, moments, giving, counts, brick, now);
+    for (int d = 0; d < NEIGHBOURS; ++d)
+      if (((bits >> d) & 1u) != 0u)
+        claim(P, moments, giving, counts, brick_of(P, x + direction_x(d), y, z + direction_z(d)), now);
     pattern[i] = (uchar)bits;
   }
 }
@@ -73,15 +82,15 @@ FN Gift given(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, int i,
   return gift;
 }
 
-// Every cell loses its gifts and takes those of its neighbours. All cells of the bricks are written, and the
-// bricks that hold matter are told in `matter`.
+// Every cell loses its gifts and takes those of its neighbours. All cells of the bricks that give or take are written,
+// and take_over brings them back.
 KERNEL(apply_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                        GLOBAL const ushort* E, GLOBAL const ushort* H, GLOBAL ushort* new_A, GLOBAL ushort* new_E,
-                       GLOBAL ushort* new_H, GLOBAL uchar* T, GLOBAL const uchar* pattern, GLOBAL uchar* matter, GLOBAL long* books,
-                       GLOBAL const int* list, GLOBAL const int* counts, int dither) {
+                       GLOBAL ushort* new_H, GLOBAL const uchar* pattern, MOMENTS, GLOBAL long* books,
+                       GLOBAL const int* giving, GLOBAL const int* counts, int dither, int now) {
   SCRATCH
   long dissipated = 0, capped = 0, rounded = 0;
-  FOR_LISTED_CELLS(list, counts[NEAR]) {
+  FOR_LISTED_CELLS(giving, counts[GIVING]) {
     CELL
     uint f = F[i];
     int a = A[i], e = E[i], h = HEAT ? H[i] : 0;
@@ -112,15 +121,28 @@ KERNEL(apply_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* 
         a = amount;
         e = imin(energy, amount);
         if (a == 0) h = 0;
+        note(&MOVED_AT(brick), now);
+        if (a > 0) note(&MATTER_AT(brick), now);
       }
     }
     new_A[i] = (ushort)a;
     new_E[i] = (ushort)e;
-    if (HAS_TRANSIENTS) T[i] = 0;
     if (HEAT) new_H[i] = (ushort)h;
-    if (is_matter(f, a) && !LOOK(matter[brick])) RAISE(matter[brick]);
   }
   book(books, scratch, ENERGY_DISSIPATED, dissipated);
   book(books, scratch, ENERGY_CAPPED, capped);
   if (HEAT) book(books, scratch, HEAT_ROUNDED, rounded);
+}
+
+// Brings what spread has written back to where the state is. So the state is in one place always, and bricks that
+// sleep need no copy.
+KERNEL(take_over)(CONSTANTS, GLOBAL ushort* A, GLOBAL ushort* E, GLOBAL ushort* H, GLOBAL const ushort* new_A,
+                  GLOBAL const ushort* new_E, GLOBAL const ushort* new_H, GLOBAL const int* giving,
+                  GLOBAL const int* counts) {
+  FOR_LISTED_CELLS(giving, counts[GIVING]) {
+    CELL
+    A[i] = new_A[i];
+    if (PAPER) E[i] = new_E[i];
+    if (HEAT) H[i] = new_H[i];
+  }
 }

@@ -147,8 +147,8 @@ FN int pair_dither(uint step, int axis, int y, int substep, int substeps) {
 KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                     GLOBAL const ushort* H, GLOBAL ushort* new_A, GLOBAL ushort* new_H, GLOBAL const uchar* T,
                     GLOBAL const ushort* run, GLOBAL const Column* records, GLOBAL const int* heads,
-                    GLOBAL uchar* matter, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts,
-                    uint step, int substep, int substeps, int stages, int dither) {
+                    MOMENTS, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts,
+                    uint step, int substep, int substeps, int stages, int dither, int now) {
   SCRATCH
   long rounded = 0;
   Relaxation how = relaxation_of(stages);
@@ -190,11 +190,13 @@ KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, 
         if (HEAT && in > 0) h = mix(content + (uint)(a - out) * (uint)h, (uint)(a - out + in), dither, &rounded);
         a += in - out;
         if (a == 0) h = 0;
+        note(&MOVED_AT(brick), now);
       }
     }
     new_A[i] = (ushort)a;
     if (HEAT) new_H[i] = (ushort)h;
-    if (is_matter(f, a) && !LOOK(matter[brick])) RAISE(matter[brick]);
+    note(&SEEN_AT(brick), now);
+    if (is_matter(f, a)) note(&MATTER_AT(brick), now);
   }
   if (HEAT) book(books, scratch, HEAT_ROUNDED, rounded);
 }

@@ -31,11 +31,14 @@ inline void raise_to(int& number, int least) {
   while (seen < least && !shared.compare_exchange_weak(seen, least)) {
   }
 }
-inline unsigned char look(const unsigned char& flag) {
-  return std::atomic_ref(const_cast<unsigned char&>(flag)).load(std::memory_order_relaxed);
-}
 inline int leading_zeros(std::uint64_t number) { return std::countl_zero(number); }
-inline void raise(unsigned char& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); }
+inline int look(const int& moment) {
+  return std::atomic_ref(const_cast<int&>(moment)).load(std::memory_order_relaxed);
+}
+inline void stamp(int& moment, int now) { std::atomic_ref(moment).store(now, std::memory_order_relaxed); }
+inline int claim(int& moment, int now) {
+  return std::atomic_ref(moment).exchange(now, std::memory_order_relaxed);
+}
 
 class PlainMemory final : public Memory {
  public:

@@ -37,6 +37,7 @@ ulong mul_high(ulong a, ulong b) { return static_cast<ulong>(Wide{a} * b >> 64);
 #define NEXT(counter) gpu::next(*(counter))
 #define RAISE_TO(number, least) gpu::raise_to(*(number), least)
 #define LOOK(flag) gpu::look(flag)
-#define RAISE(flag) gpu::raise(flag)
+#define STAMP(moment, now) gpu::stamp(moment, now)
+#define CLAIM(moment, now) gpu::claim(*(moment), now)
 #define MUL_HIGH(a, b) mul_high(a, b)
 #define LEADING_ZEROS(a) gpu::leading_zeros(a)

@@ -19,11 +19,11 @@ namespace voxmelt::worlds {
 using MakeDevice = std::function<std::shared_ptr<gpu::Device>(const Parameters&, Grid)>;
 
 inline step::Implementation on_device(const MakeDevice& make) {
-  return {
-      "device", "",
-      [make](const Parameters& parameters, Grid grid, const step::Tuning&) -> std::unique_ptr<step::Stepper> {
-        return std::make_unique<gpu::Stepper>(make(parameters, grid), parameters, grid);
-      }};
+  return {"device", "",
+          [make](const Parameters& parameters, Grid grid,
+                 const step::Tuning& tuning) -> std::unique_ptr<step::Stepper> {
+            return std::make_unique<gpu::Stepper>(make(parameters, grid), parameters, grid, tuning.sleep);
+          }};
 }
 
 inline bool same_steps_on_device(const Parameters& parameters, const Volume& start, const MakeDevice& make,

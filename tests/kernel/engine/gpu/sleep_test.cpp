@@ -1,0 +1,130 @@
+// A brick that sleeps on a device stays as it is. In calm worlds small causes wake it: the same as for tiles
+// (tests/kernel/engine/parallel). The audit computes what would sleep all the same, and finds no change.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "kernel/engine/gpu/stepper.h"
+#include "kernel/run/simulation.h"
+#include "kernel/scene/scene.h"
+#include "tests/kernel/engine/gpu/hostile_world.h"
+#include "tests/kernel/engine/gpu/plain_device.h"
+#include "tests/kernel/engine/gpu/same_steps.h"
+#include "tests/kernel/engine/parallel/calm.h"
+#include "tests/rounds.h"
+
+namespace voxmelt::gpu {
+namespace {
+
+using namespace worlds;
+
+HostileWorld calm_world(int seed, rule::Law law) {
+  Random random(static_cast<std::uint64_t>(seed) * 104729 + static_cast<std::uint64_t>(law));
+  const Grid grid = calm_grid(random);
+  const Parameters parameters = calm_parameters(random, law, grid);
+  return {parameters, calm_volume(random, parameters, grid)};
+}
+
+MakeDevice plain(int threads) {
+  return [threads](const Parameters&, Grid) { return plain_device(threads); };
+}
+
+// Steps a world with the audit, beside the reference.
+std::string audited(const HostileWorld& world, int count) {
+  gpu::Stepper* device = nullptr;
+  const step::Implementation implementation_of{
+      "device", "", [&](const Parameters& p, Grid grid, const step::Tuning&) {
+        auto stepper = std::make_unique<Stepper>(plain_device(1), p, grid);
+        stepper->audit_sleep();
+        device = stepper.get();
+        return stepper;
+      }};
+  run::Simulation expected(world.parameters, world.start, implementation("reference"));
+  run::Simulation actual(world.parameters, world.start, implementation_of);
+  for (int step = 0; step < count; ++step) {
+    expected.step();
+    actual.step();
+    const std::string found = difference(expected.volume(), actual.volume());
+    const std::string where = "step " + std::to_string(step) + ": ";
+    if (!device->fault().empty()) return where + device->fault();
+    if (!found.empty()) return where + found;
+    if (expected.ledger() != actual.ledger()) return where + "the books differ";
+  }
+  return {};
+}
+
+class KernelsAsleep : public testing::TestWithParam<rule::Law> {};
+
+TEST_P(KernelsAsleep, WakeInTime) {
+  for (int seed = 0; seed < rounds(400); ++seed) {
+    const HostileWorld world = calm_world(seed, GetParam());
+    if (!same_steps_on_device(world.parameters, world.start, plain(1 + seed % 3), 30, seed % 4 == 1))
+      FAIL() << "seed " << seed;
+  }
+}
+
+TEST_P(KernelsAsleep, StayAsTheyAre) {
+  for (int seed = 0; seed < rounds(200); ++seed) {
+    const HostileWorld world = seed % 3 == 0   ? hostile_world(seed, GetParam())
+                               : seed % 3 == 1 ? sparse_world(seed, GetParam())
+                                               : calm_world(seed, GetParam());
+    ASSERT_EQ(audited(world, seed % 3 == 0 ? 6 : 16), "") << "seed " << seed;
+  }
+}
+
+// Runs a scene to a part of its melt, and then some steps on a device. It returns the sums of their work.
+Stepper::Work work_in(const std::string& name, int eighths) {
+  const scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
+  const int steps_before = static_cast<int>(scene.steps) * eighths / 8;
+  run::Simulation fast(scene.parameters, scene.initial, run::implementations().widest(), {.threads = 2});
+  steps(fast, steps_before);
+  Stepper* device = nullptr;
+  const step::Implementation counted{"device", "", [&](const Parameters& p, Grid grid, const step::Tuning&) {
+                                       auto stepper = std::make_unique<Stepper>(plain_device(2), p, grid);
+                                       device = stepper.get();
+                                       return stepper;
+                                     }};
+  run::Simulation simulation(scene.parameters, fast.volume(), counted);
+  simulation.begin_at(static_cast<std::uint32_t>(steps_before));
+  Stepper::Work sum;
+  for (int step = 0; step < 6; ++step) {
+    simulation.step();
+    if (step < 2) continue;  // nothing is known about the first state
+    const Stepper::Work one = device->work();
+    sum.with_matter += one.with_matter;
+    sum.beside_matter += one.beside_matter;
+    sum.heat += one.heat;
+    sum.gravity += one.gravity;
+    sum.spread += one.spread;
+    sum.giving += one.giving;
+  }
+  return sum;
+}
+
+// Both kernels of spread would visit all bricks that hold matter, and those beside them.
+TEST(BricksAwake, AreFewInScenes) {
+  for (const char* name : {"cello", "goblet", "lava", "bunny"}) {
+    if (!all_rounds() && std::string(name) != "cello") continue;
+    Stepper::Work sum;
+    for (int eighths = all_rounds() ? 1 : 4; eighths < (all_rounds() ? 8 : 5); ++eighths) {
+      const Stepper::Work one = work_in(name, eighths);
+      std::printf("%s %d/8: matter %d, beside %d, heat %d, gravity %d, spread %d, giving %d\n", name, eighths,
+                  one.with_matter / 4, one.beside_matter / 4, one.heat / 4, one.gravity / 4, one.spread / 4,
+                  one.giving / 4);
+      sum.beside_matter += one.beside_matter;
+      sum.spread += one.spread;
+      sum.giving += one.giving;
+    }
+    EXPECT_GT(sum.giving, 0) << name;
+    EXPECT_LT(3 * (sum.spread + sum.giving), 4 * sum.beside_matter)
+        << name << ": without sleep it would be 6";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, KernelsAsleep, testing::Values(rule::Law::paper, rule::Law::viscous),
+                         [](const auto& law) { return law.param == rule::Law::paper ? "paper" : "viscous"; });
+
+}  // namespace
+}  // namespace voxmelt::gpu
