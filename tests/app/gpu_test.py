@@ -19,6 +19,7 @@ from program import PROGRAM, SMALL, voxmelt, write
 
 ROOT = Path(__file__).resolve().parents[2]
 NO_DEVICES = {"OCL_ICD_VENDORS": "/nonexistent", "CUDA_VISIBLE_DEVICES": ""}
+SLOW_DRIVER = {"OPENCL_LAYERS": sys.argv[2]} if len(sys.argv) > 2 else {}
 VISCOUS = SMALL.replace('law = "paper"', 'law = "viscous"\n[flow.viscous]\nkappa = 0.02')
 
 VENT = """[grid]
@@ -94,6 +95,33 @@ class Refusals(unittest.TestCase):
         with tempfile.TemporaryDirectory() as cache:
             self.refused("digest", self.scene, "--implementation", "gpu", code=3, names="does not answer for 1 s",
                          VOXMELT_DEVICE_PATIENCE="1", POCL_CACHE_DIR=cache)
+
+
+@unittest.skipUnless(devices() and SLOW_DRIVER, "no device of OpenCL")
+class SlowCompilers(unittest.TestCase):
+    """A driver that builds a program for long, or for ever."""
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name)
+        self.scene = write(self.folder, SMALL.replace("power = 30", "power = 3"))
+
+    def steps(self, name, seconds, patience):
+        return voxmelt("digest", self.scene, "--steps", "4", "--implementation", name, cwd=self.folder,
+                       env=with_environment(SLOW_BUILD=str(seconds), VOXMELT_DEVICE_PATIENCE=str(patience), **SLOW_DRIVER))
+
+    def test_one_that_hangs_is_lost(self):
+        begin = time.monotonic()
+        result = self.steps("gpu", 1000, 1)
+        self.assertEqual((result.returncode, result.stdout), (3, ""))
+        self.assertRegex(result.stderr, r"^error: OpenCL: .* does not answer for 1 s while it builds a program\n$")
+        self.assertLess(time.monotonic() - begin, 60, "nobody waits for it at the end")
+        self.assertEqual(list(self.folder.iterdir()), [self.scene], "nothing is left behind")
+
+    def test_one_that_ends_in_time_is_waited_for(self):
+        result = self.steps("gpu", 2, 100)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(result.stdout, self.steps("reference", 0, 1).stdout)
 
 
 @unittest.skipUnless(devices(), "no device of OpenCL")

@@ -91,7 +91,7 @@ struct CudaKernels final : public OtherKernels {
 
 class CudaQueue final : public Device {
  public:
-  CudaQueue(const Cuda& cuda, const CudaDevice& about, const Constants* constants, int patience)
+  CudaQueue(const Cuda& cuda, const CudaDevice& about, const Constants* constants, Patience patience)
       : cuda_(cuda),
         about_(about),
         patience_(patience),
@@ -170,10 +170,10 @@ class CudaQueue final : public Device {
       if (state == kCudaSuccess) return;
       if (state != kCudaNotReady) check(driver, state, "go on");
       const auto waited = std::chrono::steady_clock::now() - begin;
-      if (waited > std::chrono::seconds(patience_)) {
+      if (waited > std::chrono::seconds(patience_.answer)) {
         context_->lost = true;
-        throw step::DeviceLost("CUDA: " + about_.name + " does not answer for " + std::to_string(patience_) +
-                               " s");
+        throw step::DeviceLost("CUDA: " + about_.name + " does not answer for " +
+                               std::to_string(patience_.answer) + " s");
       }
       if (waited > std::chrono::milliseconds(2)) std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
@@ -218,7 +218,7 @@ class CudaQueue final : public Device {
 
   Cuda cuda_;
   CudaDevice about_;
-  int patience_;
+  Patience patience_;
   std::shared_ptr<Context> context_;
   Owned<CudaStream, &CudaLibrary::cuStreamDestroy> stream_;
   Owned<void*, &CudaLibrary::cuMemFreeHost> staging_;
@@ -266,11 +266,11 @@ const std::vector<CudaDevice>& cuda_devices() {
 }
 
 std::unique_ptr<Device> open(const Cuda& cuda, const CudaDevice& device, const Constants* constants,
-                             int patience) {
+                             Patience patience) {
   return std::make_unique<CudaQueue>(cuda, device, constants, patience);
 }
 
-std::unique_ptr<Device> open(const CudaDevice& device, const Constants* constants, int patience) {
+std::unique_ptr<Device> open(const CudaDevice& device, const Constants* constants, Patience patience) {
   return open({cuda_library(), nvrtc_library()}, device, constants, patience);
 }
 

@@ -33,9 +33,9 @@ const std::vector<CudaDevice>& cuda_devices();
 std::vector<CudaDevice> devices_of(const Cuda& cuda);
 
 // As open() in open_cl.h. It throws DeviceError, with what the compiler says, and step::DeviceLost if the
-// device does not answer for `patience` seconds.
-std::unique_ptr<Device> open(const CudaDevice& device, const Constants* constants, int patience = 120);
+// device does not answer. The compiler works in this program, and nobody gives it up.
+std::unique_ptr<Device> open(const CudaDevice& device, const Constants* constants, Patience patience = {});
 std::unique_ptr<Device> open(const Cuda& cuda, const CudaDevice& device, const Constants* constants,
-                             int patience);
+                             Patience patience);
 
 }  // namespace voxmelt::gpu

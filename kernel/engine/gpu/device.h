@@ -72,6 +72,11 @@ class OtherKernels {
   virtual ~OtherKernels() = default;
 };
 
+// The seconds that a device may need to build a program, and to answer. After them it counts as lost.
+struct Patience {
+  int build = 120, answer = 120;
+};
+
 // Every function may throw DeviceError.
 class Device {
  public:

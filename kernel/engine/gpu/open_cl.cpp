@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <future>
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -85,7 +86,7 @@ struct OpenClKernels final : public OtherKernels {
 
 class OpenClQueue final : public Device {
  public:
-  OpenClQueue(const OpenClDevice& about, const Constants* constants, int patience)
+  OpenClQueue(const OpenClDevice& about, const Constants* constants, Patience patience)
       : about_(about), device_(static_cast<cl_device_id>(about.device)), patience_(patience) {
     cl_int code = CL_SUCCESS;
     context_ = Context(library().clCreateContext(nullptr, 1, &device_, nullptr, nullptr, &code));
@@ -157,14 +158,32 @@ class OpenClQueue final : public Device {
       if (status == CL_COMPLETE) return;
       check(std::min(status, CL_SUCCESS), "go on");  // below 0 it is an error
       const auto waited = std::chrono::steady_clock::now() - begin;
-      if (waited > std::chrono::seconds(patience_)) {
-        lost = true;
-        throw step::DeviceLost("OpenCL: " + about_.name + " does not answer for " +
-                               std::to_string(patience_) + " s");
-      }
+      if (waited > std::chrono::seconds(patience_.answer)) give_up(patience_.answer, "");
       if (waited > std::chrono::milliseconds(2)) std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   }
+  [[noreturn]] void give_up(int seconds, const char* doing) const {
+    lost = true;
+    throw step::DeviceLost("OpenCL: " + about_.name + " does not answer for " + std::to_string(seconds) +
+                           " s" + doing);
+  }
+
+  // A compiler cannot be asked how far it is, and may never come back. So it has a thread of its own, with
+  // all that it needs. A driver that hangs keeps both.
+  cl_int build_in_time(cl_program program, const std::string& options) const {
+    std::packaged_task<cl_int()> task([program, options, device = device_] {
+      return library().clBuildProgram(program, 1, &device, options.c_str(), nullptr, nullptr);
+    });
+    std::future<cl_int> answer = task.get_future();
+    std::thread compiler(std::move(task));
+    if (answer.wait_for(std::chrono::seconds(patience_.build)) != std::future_status::ready) {
+      compiler.detach();
+      give_up(patience_.build, " while it builds a program");
+    }
+    compiler.join();
+    return answer.get();
+  }
+
   void start(const OpenClKernels& program, std::size_t kernel, int groups,
              std::initializer_list<Argument> arguments) {
     cl_kernel object = program.kernels[kernel].get();
@@ -209,8 +228,7 @@ class OpenClQueue final : public Device {
     cl_int code = CL_SUCCESS;
     program = Program(library().clCreateProgramWithSource(context_.get(), 1, &begin, &size, &code));
     check(code, "take the program");
-    code = library().clBuildProgram(program.get(), 1, &device_, ("-cl-std=CL1.2 -w" + options).c_str(),
-                                    nullptr, nullptr);
+    code = build_in_time(program.get(), "-cl-std=CL1.2 -w" + options);
     if (code == CL_SUCCESS) return;
     std::string said(4096, '\0');
     std::size_t used = 0;
@@ -222,7 +240,7 @@ class OpenClQueue final : public Device {
 
   OpenClDevice about_;
   cl_device_id device_;
-  int patience_;
+  Patience patience_;
   Context context_;
   Queue queue_;
   std::unique_ptr<OpenClKernels> own_;
@@ -277,7 +295,7 @@ const std::vector<OpenClDevice>& open_cl_devices() {
   return devices;
 }
 
-std::unique_ptr<Device> open(const OpenClDevice& device, const Constants* constants, int patience) {
+std::unique_ptr<Device> open(const OpenClDevice& device, const Constants* constants, Patience patience) {
   return std::make_unique<OpenClQueue>(device, constants, patience);
 }
 

@@ -26,8 +26,7 @@ struct OpenClDevice {
 const std::vector<OpenClDevice>& open_cl_devices();
 
 // Builds the program for these numbers alone, or for any scene if `constants` is null. It throws DeviceError,
-// with what the compiler of the driver says. A device that does not answer for `patience` seconds counts as
-// lost.
-std::unique_ptr<Device> open(const OpenClDevice& device, const Constants* constants, int patience = 120);
+// with what the compiler of the driver says.
+std::unique_ptr<Device> open(const OpenClDevice& device, const Constants* constants, Patience patience = {});
 
 }  // namespace voxmelt::gpu

@@ -30,7 +30,7 @@ using namespace worlds;
 
 CudaDevice fake_device() { return devices_of(fake_cuda()).front(); }
 
-std::unique_ptr<Device> fake(const Constants* constants = nullptr, int patience = 120) {
+std::unique_ptr<Device> fake(const Constants* constants = nullptr, Patience patience = {}) {
   return open(fake_cuda(), fake_device(), constants, patience);
 }
 std::shared_ptr<Device> fake_for(const Parameters& parameters, Grid grid) {
@@ -146,7 +146,7 @@ TEST(CudaHost, ACardThatHangsIsLost) {
   FakeCard& card = new_fake_card();
   const int alive = card.alive;
   {
-    const auto device = fake(nullptr, 1);
+    const auto device = fake(nullptr, {120, 1});
     const auto memory = device->allocate(8);
     card.hangs = true;
     int back = 0;

@@ -127,7 +127,7 @@ TEST(OpenClDevice, ThatDoesNotAnswerIsLost) {
   EXPECT_EXIT(
       {
         try {
-          const std::unique_ptr<Device> device = open(open_cl_devices().front(), nullptr, 0);
+          const std::unique_ptr<Device> device = open(open_cl_devices().front(), nullptr, {.answer = 0});
           const std::unique_ptr<Memory> memory = device->allocate(std::size_t{1} << 28);
           std::vector<char> all(std::size_t{1} << 28);
           device->read(*memory, all.data(), all.size());
@@ -136,7 +136,29 @@ TEST(OpenClDevice, ThatDoesNotAnswerIsLost) {
           std::_Exit(5);
         }
       },
-      testing::ExitedWithCode(5), "does not answer for 0 s");
+      testing::ExitedWithCode(5), "does not answer for 0 s$");
+}
+
+// The same holds while it builds its program. With a spare, as `auto` has one, the processor goes on.
+TEST(OpenClDevice, ThatBuildsForEverIsLostAndTheSpareGoesOn) {
+  VOXMELT_NEEDS_A_DEVICE();
+  const HostileWorld world = hostile_world(2, rule::Law::paper);
+  const auto go_on = [&world] {
+    step::Implementation device =
+        on_device([](const Parameters& parameters, Grid grid) -> std::shared_ptr<Device> {
+          const Constants constants = constants_of(parameters, Shape(grid));
+          return open(open_cl_devices().front(), &constants, {.build = 0});
+        });
+    device.spare = &implementation("reference");
+    device.told = [](const DeviceError& why) { std::fputs(why.what(), stderr); };
+    run::Simulation expected(world.parameters, world.start, implementation("reference"));
+    run::Simulation actual(world.parameters, world.start, device);
+    steps(expected, 3);
+    steps(actual, 3);
+    const bool same = difference(expected.volume(), actual.volume()).empty();
+    std::_Exit(same && step::DeviceLost::happened && actual.implementation() == "reference" ? 5 : 6);
+  };
+  EXPECT_EXIT(go_on(), testing::ExitedWithCode(5), "does not answer for 0 s while it builds a program$");
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, OpenCl, testing::Values(rule::Law::paper, rule::Law::viscous),
