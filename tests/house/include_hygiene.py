@@ -40,7 +40,7 @@ TABLE = {
     "deque": "deque erase erase_if",
     "exception": "current_exception exception exception_ptr rethrow_exception terminate uncaught_exceptions",
     "filesystem": "filesystem",
-    "future": "async future future_status launch",
+    "future": "async future future_status launch packaged_task",
     "fstream": "fstream ifstream ofstream ios",
     "functional": "bind_front equal_to function greater hash invoke less minus multiplies plus ref reference_wrapper",
     "initializer_list": "initializer_list",

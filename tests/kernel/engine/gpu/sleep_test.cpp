@@ -74,6 +74,62 @@ TEST_P(KernelsAsleep, StayAsTheyAre) {
   }
 }
 
+// A shaft across several bricks is emptied from below, filled again so that liquid climbs, and emptied.
+TEST(KernelsAsleepAlone, LiquidLeavesABrickAndComesBack) {
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous})
+    for (const int freezing : {0, 30000}) {
+      const Grid grid{34, 18, 3};
+      Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.1);
+      p.heat.enabled = p.heat.air = true;
+      p.heat.weight_face = 5000;
+      p.heat.air_exchange = 300;
+      p.heat.air_temperature.assign(18, 29000);
+      p.material = {.melting_point = 30000, .freezing_point = static_cast<rule::Temperature>(freezing)};
+      for (const std::uint32_t from : {4u, 44u})
+        p.drains.push_back({{{16 * 32 + 8, 8, 24}, 1}, 9000, from, from + 14});
+      p.vents.push_back({{{16 * 32 + 8, 8, 24}, 1}, 4096, 50000, 4096, 22, 36});
+      Volume start(grid);
+      fill_inert(start, whole(grid));
+      for_each({32, 0, 1, 33, 18, 2}, [&](int x, int y, int z) {
+        start.inert.set(x, y, z, false);
+        put(start, x, y, z, y < 11 ? kOne : 0, y < 11 && law == rule::Law::paper ? kOne : 0,
+            y < 11 ? 31000 : 0);
+      });
+      run::Simulation reference = simulate(p, start);
+      int changes = 0;
+      for (int step = 0, held = 1; step < 62; ++step) {
+        reference.step();
+        int holds = 0;
+        for (int y = 4; y < 8; ++y) holds |= amount_at(reference, 32, y, 1) > 0 ? 1 : 0;
+        changes += holds != held ? 1 : 0;
+        held = holds;
+      }
+      EXPECT_GE(changes, freezing == 0 ? 3 : 2) << "it leaves, comes back and leaves";
+      EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 62));
+      EXPECT_EQ(audited({p, start}, 62), "");
+    }
+}
+
+// A hot drop falls on a solid at the corner of a brick. Only over that corner heat comes to another solid.
+TEST(KernelsAsleepAlone, HeatCrossesACorner) {
+  Parameters p = paper_showcase();
+  p.heat = {};
+  p.heat.enabled = true;
+  p.heat.neighbours = 26;
+  p.heat.weight_face = 10922;
+  p.heat.weight_corner = 3640;
+  p.material.melting_point = 65535;
+  Volume start({64, 20, 8});
+  put_solid(start, 31, 3, 3, kOne, 20000);
+  put_solid(start, 32, 4, 4, kOne, 20000);
+  fill_inert(start, {32, 0, 4, 33, 4, 5});
+  put(start, 32, 18, 4, kOne, 0, 60000);
+  run::Simulation reference = simulate(p, start);
+  steps(reference, 30);
+  EXPECT_GT(reference.volume().heat[start.at(31, 3, 3)], 20000);
+  EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 30));
+}
+
 // Runs a scene to a part of its melt, and then some steps on a device. It returns the sums of their work.
 Stepper::Work work_in(const std::string& name, int eighths) {
   const scene::Scene scene = scene::load(std::filesystem::path(VOXMELT_SCENES_FOLDER) / (name + ".toml"), {});
