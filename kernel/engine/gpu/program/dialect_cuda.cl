@@ -23,6 +23,7 @@ typedef unsigned long ulong;
 #define NEXT(counter) atomicAdd(counter, 1)
 #define RAISE_TO(number, least) atomicMax(number, least)
 #define LOOK(flag) (flag)
-#define RAISE(flag) ((flag) = 1)
+#define STAMP(moment, now) ((moment) = (now))
+#define CLAIM(moment, now) atomicExch(moment, now)
 #define MUL_HIGH(a, b) __umul64hi(a, b)
 #define LEADING_ZEROS(a) __clzll((long long)(a))

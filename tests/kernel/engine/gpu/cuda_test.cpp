@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -157,6 +159,20 @@ TEST(CudaHost, ACardThatHangsIsLost) {
     EXPECT_LT(waited, std::chrono::seconds(30));
   }
   EXPECT_EQ(card.alive, alive + 5) << "nothing is given back to what does not answer";
+}
+
+std::set<std::string> words_of(const std::string& dialect) {
+  std::set<std::string> words;
+  std::istringstream text(dialect);
+  for (std::string line; std::getline(text, line);)
+    if (const std::string define = "#define "; line.starts_with(define))
+      words.insert(line.substr(define.size(), line.find_first_of(" (", define.size()) - define.size()));
+  return words;
+}
+
+TEST(Dialects, HaveTheSameWords) {
+  EXPECT_EQ(words_of(cuda_dialect()), words_of(open_cl_dialect()));
+  EXPECT_EQ(words_of(cuda_dialect()).count("CLAIM"), 1u);
 }
 
 // NVIDIA's compiler needs no card.
