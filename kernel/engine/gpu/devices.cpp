@@ -50,9 +50,9 @@ step::Implementation implementation(std::string name, std::string_view kind, boo
                 const step::Tuning& tuning /*threads and tiles are the device's*/)
           -> std::unique_ptr<step::Stepper> {
         const Constants constants = constants_of(parameters, Shape(grid));
-        return std::make_unique<Stepper>(
-            open(limited(device), &constants, limit("VOXMELT_DEVICE_PATIENCE").value_or(120)), parameters,
-            grid, tuning.sleep);
+        const int patience = limit("VOXMELT_DEVICE_PATIENCE").value_or(120);
+        return std::make_unique<Stepper>(open(limited(device), &constants, {patience, patience}), parameters,
+                                         grid, tuning.sleep);
       },
       true,
       true,
