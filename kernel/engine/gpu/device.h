@@ -26,6 +26,9 @@ enum class Kernel {
   list_bricks,
   list_awake,
   list_givers,
+  list_columns,
+  list_pairs,
+  list_falls,
   find_matter,
   vent,
   drain,
@@ -52,11 +55,11 @@ enum class Kernel {
   copy_words  // for measurements
 };
 inline constexpr const char* kKernelNames[] = {
-    "list_bricks", "list_awake",     "list_givers",    "find_matter", "vent",       "drain",
-    "border",      "conduct",        "exchange",       "copy_heat",   "find_cold",  "melt",
-    "gravity",     "find_patterns",  "apply_patterns", "take_over",   "settle",     "count_substeps",
-    "spread_runs", "begin_relaxing", "relax",          "put_light",   "find_cubes", "find_blocks",
-    "add_light",   "share_light",    "copy_words"};
+    "list_bricks", "list_awake", "list_givers",    "list_columns", "list_pairs",     "list_falls",
+    "find_matter", "vent",       "drain",          "border",       "conduct",        "exchange",
+    "copy_heat",   "find_cold",  "melt",           "gravity",      "find_patterns",  "apply_patterns",
+    "take_over",   "settle",     "count_substeps", "spread_runs",  "begin_relaxing", "relax",
+    "put_light",   "find_cubes", "find_blocks",    "add_light",    "share_light",    "copy_words"};
 
 using Argument = std::variant<const Memory*, std::int32_t>;  // null: memory that the scene does not have
 

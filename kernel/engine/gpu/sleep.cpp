@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/engine/gpu/stepper.h"
@@ -21,7 +22,12 @@ void Stepper::forget_moments() {
   for (Buffer* field : {&pattern_, &transient_})
     if (*field) device_->clear(**field, static_cast<std::size_t>(shape_.cells));
   if (moment_ > kLastMoment) moment_ = 0;
-  awake_ = givers_ = {};
+  awake_ = givers_ = columns_listing_ = falls_ = {};
+  if (run_) {
+    device_->clear(*run_, 2 * static_cast<std::size_t>(shape_.cells));
+    device_->clear(*limits_, limit_bytes());
+    device_->clear(*standing_, book_bytes());
+  }
   device_->run(Kernel::find_matter, groups_,
                {constants_.get(), flags_.get(), amount_.now.get(), moments_.get(), next_moment()});
 }
@@ -35,9 +41,10 @@ void Stepper::list_awake() {
   device_->run(Kernel::list_awake, groups_,
                {constants_.get(), moments_.get(), full_.get(), columns_.get(), counts_.get(),
                 other_counts_.get(), awake_.since, all, now});
-  awake_known_ = !awake_.all;
+  awake_known_ = falls_known_ = !awake_.all;
   awake_ = {now, false};
   falls_from_ = all != 0 ? 0 : now;
+  falls_since_ = now;
 }
 
 // Lists the bricks in which the paper's law looks for cells that give.
@@ -49,6 +56,50 @@ void Stepper::list_givers() {
                 givers_.since, all, now});
   givers_known_ = !givers_.all;
   givers_ = {now, false};
+}
+
+// Runs whose mobilities were for another number of sub-steps or stages are settled again.
+void Stepper::list_columns(step::Cadence cadence) {
+  counts_.swap(other_counts_);
+  if (std::exchange(substeps_, cadence.substeps) != cadence.substeps)
+    columns_listing_.all = givers_.all = true;
+  if (std::exchange(stages_, cadence.stages) != cadence.stages) columns_listing_.all = givers_.all = true;
+  const std::int32_t all = columns_listing_.all || !sleep_ ? 1 : 0;
+  device_->run(Kernel::list_columns, groups_,
+               {constants_.get(), moments_.get(), columns_.get(), counts_.get(), other_counts_.get(),
+                columns_listing_.since, all});
+  columns_listing_ = {next_moment(), false};
+}
+
+// Relaxed heads come from many cells, so nothing sleeps then.
+void Stepper::list_pairs(step::Cadence cadence) {
+  counts_.swap(other_counts_);
+  const std::int32_t now = next_moment(), all = givers_.all || !sleep_ || cadence.stages > 1 ? 1 : 0;
+  device_->run(Kernel::list_pairs, groups_,
+               {constants_.get(), moments_.get(), full_.get(), near_.get(), counts_.get(),
+                other_counts_.get(), givers_.since, all, now});
+  givers_known_ = !givers_.all && cadence.stages == 1;
+  givers_ = {now, false};
+}
+
+void Stepper::list_falls() {
+  counts_.swap(other_counts_);
+  const std::int32_t now = next_moment();
+  device_->run(Kernel::list_falls, groups_,
+               {constants_.get(), moments_.get(), columns_.get(), counts_.get(), other_counts_.get(),
+                falls_.since, now});
+  falls_from_ = falls_.all || !sleep_ ? 0 : now;
+  falls_since_ = now;
+  falls_known_ = !falls_.all;
+  falls_ = {now, false};
+}
+
+std::size_t Stepper::book_bytes() const {
+  return sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_);
+}
+std::size_t Stepper::limit_bytes() const {
+  return 4 * sizeof(std::int64_t) * static_cast<std::size_t>(shape_.grid.x) *
+         static_cast<std::size_t>(shape_.grid.z);
 }
 
 std::vector<std::int32_t> Stepper::read_moments() {
@@ -85,7 +136,7 @@ Stepper::Work Stepper::work() {
     work.with_matter += holds(n) ? 1 : 0;
     work.beside_matter += beside ? 1 : 0;
     work.heat += last(heats, n) >= awake_.since ? 1 : 0;
-    work.gravity += holds(n) && last(falls, n) >= awake_.since ? 1 : 0;
+    work.gravity += holds(n) && last(falls, n) >= falls_since_ ? 1 : 0;
     work.spread += last(spreads, n) >= givers_.since ? 1 : 0;
     work.giving += last(listed, n) > givers_.since ? 1 : 0;
   });
@@ -113,11 +164,11 @@ void Stepper::audit_heat() {
 
 // A fall wakes the brick where it goes, and excess the one into which it climbs.
 void Stepper::audit_gravity() {
-  if (!awake_known_) return;
+  if (!falls_known_) return;
   const std::int32_t now = moment_;
   const int row = shape_.bricks.x;
   for_each_brick([&](std::int64_t n, const auto& last) {
-    if (last(moved, n) != now || last(falls, n) >= awake_.since) return;
+    if (last(moved, n) != now || last(falls, n) >= falls_since_) return;
     if (last(moved, n - row) != now && last(moved, n + row) != now) find_fault("gravity", n);
   });
 }

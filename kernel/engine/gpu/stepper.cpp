@@ -101,6 +101,8 @@ Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& paramet
   } else {
     run_ = allocate(2 * cells);
     records_ = allocate(sizeof(std::int32_t) * kColumnNumbers * cells);
+    limits_ = allocate(limit_bytes());
+    standing_ = allocate(book_bytes());
   }
   if (hot)
     for (Buffer* field : {&heat_.now, &heat_.next}) *field = allocate(2 * cells);
@@ -114,7 +116,7 @@ Stepper::Stepper(std::shared_ptr<Device> device, const rule::Parameters& paramet
   for (Buffer* field : {&full_, &near_, &giving_, &columns_}) *field = allocate(4 * all);
   for (Buffer* counts : {&counts_, &other_counts_}) *counts = allocate(4 * sizeof(std::int32_t));
   most_ = allocate(sizeof(std::int32_t));
-  books_ = allocate(sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
+  books_ = allocate(book_bytes());
 }
 
 Stepper::Buffer Stepper::allocate(std::size_t bytes) {
@@ -148,7 +150,7 @@ void Stepper::upload(const state::Volume& volume, const state::Ledger& ledger) {
   both(amount_, state.amount);
   both(energy_, state.energy);
   both(heat_, state.heat);
-  device_->clear(*books_, sizeof(std::int64_t) * kTerms * static_cast<std::size_t>(groups_));
+  device_->clear(*books_, book_bytes());
   forget_moments();
   ledger_ = ledger;
   steps_in_books_ = 0;
@@ -202,9 +204,6 @@ void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
   version_ = new_version();
   if (moment_ > kLastMoment) forget_moments();
   const step::Cadence cadence = count_substeps();
-  // Under the paper's law, spread clears what melt found.
-  if (transient_ && !is_paper(parameters_))
-    device_->clear(*transient_, static_cast<std::size_t>(shape_.cells));
   if (parameters_.heat.enabled && upload_irradiance(step, irradiance)) awake_.all = true;
   source(step);
   list_awake();
@@ -224,21 +223,23 @@ void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
     spread(step);
     if (audits_) audit_spread();
   } else {
-    falls_from_ = 0;  // nothing sleeps there
     for (int k = 0; k < cadence.substeps; ++k) {
-      if (k > 0) list_bricks();
       settle(step, k, cadence);
-      list_bricks();
+      list_pairs(cadence);
       if (cadence.stages > 1) relax(cadence.stages);
       spread_runs(step, k, cadence);
+      if (audits_) audit_spread();
     }
-    list_bricks();
+    list_falls();
     gravity(step);
+    if (audits_) audit_gravity();
   }
   // A slot of the books grows by less than 2^32 per cell and rule, of which there are some 16 in a step.
+  // The counters of the limits are those of all columns, of less than 2^16 per cell, in every sub-step.
   const std::int64_t cells = 1 + shape_.cells / groups_;
-  if (++steps_in_books_ >= std::max<std::int64_t>(1, (std::int64_t{1} << 26) / (cells * cadence.substeps)))
-    collect_books();
+  const std::int64_t most = std::min((std::int64_t{1} << 26) / (cells * cadence.substeps),
+                                     (std::int64_t{1} << 46) / (shape_.cells * cadence.substeps));
+  if (++steps_in_books_ >= std::max<std::int64_t>(1, most)) collect_books();
   device_->flush();
 }
 
@@ -350,15 +351,14 @@ void Stepper::spread(std::uint32_t step) {
       {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(),
        amount_.next.get(), energy_.next.get(), heat_.next.get(), pattern_.get(), moments_.get(), books_.get(),
        giving_.get(), counts_.get(), rule::dither(step), next_moment()});
+  take_over();
+}
+
+// Brings what spread has written back to where the state is.
+void Stepper::take_over() {
   device_->run(Kernel::take_over, groups_,
                {constants_.get(), amount_.now.get(), energy_.now.get(), heat_.now.get(), amount_.next.get(),
                 energy_.next.get(), heat_.next.get(), giving_.get(), counts_.get()});
-}
-
-// The next state of the viscous law becomes the present one.
-void Stepper::turn_over() {
-  amount_.swap();
-  heat_.swap();
 }
 
 step::Cadence Stepper::count_substeps() {
@@ -380,11 +380,29 @@ void Stepper::settle(std::uint32_t step, int substep, step::Cadence cadence) {
   const rule::Relaxation how{cadence.stages};
   const std::int32_t dither =
       (rule::dither(step) + rule::dither(static_cast<std::uint32_t>(substep))) & 0xFFFF;
-  device_->clear(*run_, 2 * static_cast<std::size_t>(shape_.cells));
+  const std::int32_t since = columns_listing_.since;
+  list_columns(cadence);
   device_->run(Kernel::settle, groups_,
-               {constants_.get(), tables_.get(), flags_.get(), amount_.now.get(), heat_.now.get(),
-                amount_.next.get(), run_.get(), records_.get(), books_.get(), moments_.get(), columns_.get(),
-                counts_.get(), cadence.substeps, how.reach(), how.bits(), dither, next_moment()});
+               {constants_.get(),
+                tables_.get(),
+                flags_.get(),
+                amount_.now.get(),
+                heat_.now.get(),
+                amount_.next.get(),
+                run_.get(),
+                records_.get(),
+                limits_.get(),
+                standing_.get(),
+                books_.get(),
+                moments_.get(),
+                columns_.get(),
+                counts_.get(),
+                cadence.substeps,
+                how.reach(),
+                how.bits(),
+                dither,
+                since,
+                next_moment()});
 }
 
 void Stepper::relax(int stages) {
@@ -404,13 +422,15 @@ void Stepper::relax(int stages) {
 void Stepper::spread_runs(std::uint32_t step, int substep, step::Cadence cadence) {
   const std::int32_t dither =
       (rule::dither(step) + rule::dither(static_cast<std::uint32_t>(substep))) & 0xFFFF;
-  device_->run(Kernel::spread_runs, groups_,
-               {constants_.get(),   tables_.get(),    flags_.get(),     amount_.now.get(), heat_.now.get(),
-                amount_.next.get(), heat_.next.get(), transient_.get(), run_.get(),        records_.get(),
-                heads_.now.get(),   moments_.get(),   books_.get(),     near_.get(),       counts_.get(),
-                as_int(step),       substep,          cadence.substeps, cadence.stages,    dither,
-                next_moment()});
-  turn_over();
+  device_->run(Kernel::spread_runs, groups_, {constants_.get(),  tables_.get(),    flags_.get(),
+                                              amount_.now.get(), heat_.now.get(),  amount_.next.get(),
+                                              heat_.next.get(),  transient_.get(), run_.get(),
+                                              records_.get(),    heads_.now.get(), moments_.get(),
+                                              books_.get(),      near_.get(),      giving_.get(),
+                                              counts_.get(),     as_int(step),     substep,
+                                              cadence.substeps,  cadence.stages,   dither,
+                                              next_moment()});
+  take_over();
 }
 
 }  // namespace voxmelt::gpu

@@ -68,6 +68,12 @@ class Stepper final : public step::DeviceStepper {
   void list_bricks();
   void list_awake();
   void list_givers();
+  void list_columns(step::Cadence cadence);
+  void list_pairs(step::Cadence cadence);
+  void list_falls();
+  void take_over();
+  std::size_t book_bytes() const;
+  std::size_t limit_bytes() const;
   std::int32_t next_moment() { return ++moment_; }
   void forget_moments();
   std::vector<std::int32_t> read_moments();
@@ -87,7 +93,6 @@ class Stepper final : public step::DeviceStepper {
   void settle(std::uint32_t step, int substep, step::Cadence cadence);
   void relax(int stages);
   void spread_runs(std::uint32_t step, int substep, step::Cadence cadence);
-  void turn_over();
   bool upload_irradiance(std::uint32_t step, const step::Irradiance* irradiance);
   void collect_books();
   template <class T>
@@ -104,6 +109,7 @@ class Stepper final : public step::DeviceStepper {
   std::uint64_t version_ = 0;  // of the state there
   Buffer constants_, tables_, flags_, transient_, pattern_, irradiance_;
   Twice amount_, energy_, heat_;
+  Buffer limits_, standing_;  // counters of limits: of each column, and of each group (program/settle.cl)
   Buffer run_, records_, leveling_, impetus_, change_;
   Twice heads_;
   // Moments fit 32 bits until they begin anew. The first of them are not far from that, so that every longer
@@ -111,8 +117,12 @@ class Stepper final : public step::DeviceStepper {
   static constexpr std::int32_t kLastMoment = 1 << 30;
   std::int32_t moment_ = kLastMoment - 500;
   bool sleep_;
-  Listing awake_, givers_;
-  bool audits_ = false, awake_known_ = false, givers_known_ = false;  // known: the list tells who sleeps
+  Listing awake_, givers_;  // givers: of the viscous law, pairs
+  Listing columns_listing_, falls_;
+  int substeps_ = 0, stages_ = 0;  // of the sub-step before
+  std::int32_t falls_since_ = 0;   // when gravity's list was made
+  bool audits_ = false, awake_known_ = false, falls_known_ = false,
+       givers_known_ = false;  // known: the list tells who sleeps
   std::string fault_;
   std::int32_t falls_from_ = 0;  // a brick that was woken then or later is awake for gravity
   Buffer moments_;               // of each brick (program/lists.cl)

@@ -3,7 +3,7 @@
 // out of a phase only if nothing that the phase reads has changed since its list was made before, and if no other
 // dither and no other random bits could move anything there.
 #define BRICKS (BRICKS_X * BRICKS_Y * BRICKS_Z)
-#define MOVED_AT(n) moments[n]                   // a mask, an amount or an energy has changed
+#define MOVED_AT(n) moments[n]                   // a mask, an amount, an energy or what a run shows has changed
 #define WARM_AT(n) moments[BRICKS + (n)]         // the phase heat has changed a heat, or may at another step
 #define RESTLESS_AT(n) moments[2 * BRICKS + (n)] // some cell may give, whatever the dice said
 #define MATTER_AT(n) moments[3 * BRICKS + (n)]   // it held matter
@@ -92,7 +92,8 @@ KERNEL(list_awake)(CONSTANTS, MOMENTS, GLOBAL int* full, GLOBAL int* columns, GL
   for (int n = GROUP * LANES + LANE; n < BRICKS; n += GROUPS * LANES) {
     if (is_border_brick(P, n)) continue;
     list_column(P, moments, columns, counts, n);
-    if (!has_matter(P, moments, n)) continue;
+    // A cell that was set is looked at even if it holds nothing any more.
+    if (!has_matter(P, moments, n) && !(FREEZING_POINT > 0 && MOVED_AT(n) > since)) continue;
     int warm = late_around(P, &MOVED_AT(n), since);
     if (HEAT) warm |= late_around(P, &WARM_AT(n), since);
     if (late_across(P, &MOVED_AT(n), since)) FALLS_AT(n) = now;
@@ -115,6 +116,47 @@ KERNEL(list_givers)(CONSTANTS, MOMENTS, GLOBAL int* list, GLOBAL int* counts, GL
     if (!awake && !all) continue;
     SEEN_AT(n) = now;
     list[NEXT(counts + NEAR)] = n;
+  }
+}
+
+// These list for the viscous law, in which a step does so several times: the columns in which runs may have changed, the
+// bricks in which pairs may exchange something, and who is awake for gravity. Beds of solids change with their heat.
+KERNEL(list_columns)(CONSTANTS, MOMENTS, GLOBAL int* columns, GLOBAL int* counts, GLOBAL int* other_counts, int since,
+                     int all) {
+  forget_counts(other_counts);
+  for (int c = GROUP * LANES + LANE; c < BRICKS_X * BRICKS_Z; c += GROUPS * LANES) {
+    int bx = c % BRICKS_X, bz = c / BRICKS_X, awake = 0;
+    if (bx == 0 || bz == 0 || bx == BRICKS_X - 1 || bz == BRICKS_Z - 1) continue;
+    for (int by = 1; by < BRICKS_Y - 1; ++by) {
+      int n = (bz * BRICKS_Y + by) * BRICKS_X + bx;
+      awake |= MOVED_AT(n) > since || ((all || (HEAT && WARM_AT(n) > since)) && has_matter(P, moments, n));
+    }
+    if (awake) columns[NEXT(counts + COLUMNS)] = c;
+  }
+}
+KERNEL(list_pairs)(CONSTANTS, MOMENTS, GLOBAL int* full, GLOBAL int* near_, GLOBAL int* counts,
+                   GLOBAL int* other_counts, int since, int all, int now) {
+  forget_counts(other_counts);
+  for (int n = GROUP * LANES + LANE; n < BRICKS; n += GROUPS * LANES) {
+    if (is_border_brick(P, n)) continue;
+    int own = has_matter(P, moments, n), any = own;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dx = -1; dx <= 1; ++dx) any |= has_matter(P, moments, n + dz * BRICKS_X * BRICKS_Y + dx);
+    if (own) full[NEXT(counts + FULL)] = n;
+    if (!any) continue;
+    int awake = RESTLESS_AT(n) > since || late_around(P, &MOVED_AT(n), since) ||
+                (HEAT && late_around(P, &WARM_AT(n), since));
+    if (awake) SPREADS_AT(n) = now;
+    if (awake || all) near_[NEXT(counts + NEAR)] = n;
+  }
+}
+KERNEL(list_falls)(CONSTANTS, MOMENTS, GLOBAL int* columns, GLOBAL int* counts, GLOBAL int* other_counts, int since,
+                   int now) {
+  forget_counts(other_counts);
+  for (int n = GROUP * LANES + LANE; n < BRICKS; n += GROUPS * LANES) {
+    if (is_border_brick(P, n)) continue;
+    list_column(P, moments, columns, counts, n);
+    if (has_matter(P, moments, n) && late_across(P, &MOVED_AT(n), since)) FALLS_AT(n) = now;
   }
 }
 

@@ -140,30 +140,64 @@ FN Column shown_by(CONSTANTS, Run run, int bed, int h, int under_ceiling, int su
   return column;
 }
 
+FN int is_same(Column a, Column b) {
+  return a.head == b.head && a.mobility == b.mobility && a.exposed == b.exposed && a.dead == b.dead && a.bed == b.bed &&
+         a.limit == b.limit && a.cells == b.cells && a.shut == b.shut;
+}
+// Gives a cell its place in a run, or none. It returns 1 if that is another one than before.
+FN int put_place(GLOBAL ushort* run, int i, int place) {
+  if (run[i] == place) return 0;
+  run[i] = (ushort)place;
+  return 1;
+}
+// Tells that cells show others than before, and so does what lies on the last of them.
+FN void show_anew(CONSTANTS, MOMENTS, int x, int y, int z, int cells, int now) {
+  for (int k = 0; k <= cells; ++k)
+    if (y + k < NY) note(&MOVED_AT(brick_of(P, x, y + k, z)), now);
+}
+// Takes the cells of a brick out of runs in which they were.
+FN void leave_runs(CONSTANTS, MOMENTS, GLOBAL ushort* run, int x, int y, int z, int now) {
+  for (int k = 0; k < BRICK_Y && y + k < NY; ++k)
+    if (put_place(run, cell_at(P, x, y + k, z), 0)) show_anew(P, moments, x, y + k, z, 1, now);
+}
+
+// The counters stand for all runs of a column until it is looked at again. Each group has the sum of what it has found
+// of them, and books all of it in every sub-step.
+FN void book_limits(GLOBAL long* standing, GLOBAL long* books, LOCAL long* scratch, int term, long value) {
+  book(standing, scratch, term, value);
+  if (LANE == 0) books[GROUP * TERMS + term] += standing[GROUP * TERMS + term];
+}
+
 FN int is_settled(GLOBAL const ushort* A, int row, int i, Run run) {
   int same = 1;
   for (int k = 0; k < run.n; ++k) same &= A[i + k * row] == settled(run.mass, run.n, k);
   return same;
 }
 
-// `run` gets for each cell of a run its place in it, from 1 on. It is 0 elsewhere, and was so before.
+// `run` has for each cell of a run its place in it, from 1 on, and 0 elsewhere. `limits` has the counters of each column
+// as they were found last. What has changed since the moment `since` may lie elsewhere than before.
 KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL ushort* A, GLOBAL ushort* H,
-               GLOBAL ushort* came, GLOBAL ushort* run, GLOBAL Column* records, GLOBAL long* books,
-               MOMENTS, GLOBAL const int* columns, GLOBAL const int* counts, int substeps, int reach,
-               int bits, int dither, int now) {
+               GLOBAL ushort* came, GLOBAL ushort* run, GLOBAL Column* records, GLOBAL long* limits,
+               GLOBAL long* standing, GLOBAL long* books, MOMENTS, GLOBAL const int* columns, GLOBAL const int* counts, int substeps, int reach,
+               int bits, int dither, int since, int now) {
   SCRATCH
-  SettleBooks sums = {0, 0, 0, 0, 0};
+  SettleBooks all = {0, 0, 0, 0, 0};
   FOR_LISTED_COLUMNS(columns, counts[COLUMNS]) {
     COLUMN
+    SettleBooks sums = {0, 0, 0, 0, 0};
     for (int y = 0; y < NY; ++y) {
       if (y % BRICK_Y == 0 && !has_matter(P, moments, brick_of(P, x, y, z))) {
+        if (LOOK(MOVED_AT(brick_of(P, x, y, z))) > since) leave_runs(P, moments, run, x, y, z, now);
         y += BRICK_Y - 1;  // no run begins without matter
         continue;
       }
       int i = cell_at(P, x, y, z);
-      if (is_blocked(F[i]) || !is_blocked(F[i - ROW])) continue;
-      Run one = gathered(P, F, A, H, i);
-      if (one.n == 0) continue;
+      Run one = {0, 0, 0, 1};
+      if (!is_blocked(F[i]) && is_blocked(F[i - ROW])) one = gathered(P, F, A, H, i);
+      if (one.n == 0) {
+        if (put_place(run, i, 0)) show_anew(P, moments, x, y, z, 1, now);
+        continue;
+      }
       int after = 0, moves = !is_settled(A, ROW, i, one);
       if (HEAT) {
         if (one.keeps_order)
@@ -173,8 +207,10 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
         sums.rounded -= (long)one.content;
       }
       int bed = bed_head(P, tables, F, A, H, i - ROW, y);
-      records[i] = shown_by(P, one, bed, HEAT ? (int)(one.content / (ulong)one.mass) : 0,
-                            is_blocked(F[i + one.n * ROW]), substeps, reach, bits, &sums);
+      Column shows = shown_by(P, one, bed, HEAT ? (int)(one.content / (ulong)one.mass) : 0,
+                              is_blocked(F[i + one.n * ROW]), substeps, reach, bits, &sums);
+      moves |= run[i] != 1 || !is_same(records[i], shows);
+      records[i] = shows;
       for (int k = 0; k < one.n; ++k) {
         int at = i + k * ROW, amount = settled(one.mass, one.n, k);
         A[at] = (ushort)amount;
@@ -184,19 +220,28 @@ KERNEL(settle)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBA
           moves |= amount > 0 && H[at] != h;
           H[at] = (ushort)(amount > 0 ? h : 0);
         }
-        if (amount == 0) continue;
-        run[at] = (ushort)(k + 1);
-        note(&MATTER_AT(brick_of(P, x, y + k, z)), now);
+        moves |= put_place(run, at, amount > 0 ? k + 1 : 0);
+        if (amount > 0) note(&MATTER_AT(brick_of(P, x, y + k, z)), now);
       }
-      for (int k = 0; moves && k < one.n; ++k) note(&MOVED_AT(brick_of(P, x, y + k, z)), now);
+      if (moves) show_anew(P, moments, x, y, z, one.n, now);
       y += one.n - 1;
     }
+    GLOBAL long* before = limits + 4 * ((long)z * NX + x);
+    all.rounded += sums.rounded;
+    all.cells += sums.cells - before[0];
+    all.limited_cells += sums.limited_cells - before[1];
+    all.mass += sums.mass - before[2];
+    all.limited_mass += sums.limited_mass - before[3];
+    before[0] = sums.cells;
+    before[1] = sums.limited_cells;
+    before[2] = sums.mass;
+    before[3] = sums.limited_mass;
   }
-  if (HEAT) book(books, scratch, HEAT_ROUNDED, sums.rounded);
-  book(books, scratch, LIMIT_CELLS, sums.cells);
-  book(books, scratch, LIMIT_LIMITED_CELLS, sums.limited_cells);
-  book(books, scratch, LIMIT_MASS, sums.mass);
-  book(books, scratch, LIMIT_LIMITED_MASS, sums.limited_mass);
+  if (HEAT) book(books, scratch, HEAT_ROUNDED, all.rounded);
+  book_limits(standing, books, scratch, LIMIT_CELLS, all.cells);
+  book_limits(standing, books, scratch, LIMIT_LIMITED_CELLS, all.limited_cells);
+  book_limits(standing, books, scratch, LIMIT_MASS, all.mass);
+  book_limits(standing, books, scratch, LIMIT_LIMITED_MASS, all.limited_mass);
 }
 
 // Finds the most sub-steps that a run needs.

@@ -33,7 +33,7 @@ KERNEL(find_patterns)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F
     uint bits = 0;
     int margin = -1;
     if (is_matter(F[i], a)) note(&MATTER_AT(brick), now);
-    if (HAS_TRANSIENTS && T[i] != 0 && !(T[i] == SET && is_liquid(F[i], a))) T[i] = 0;
+    if (HAS_TRANSIENTS && T[i] != 0 && T[i] != SET) T[i] = 0;
     if (is_liquid(F[i], a) && !(SUPPORT && is_air(F[i - ROW], A[i - ROW])) &&
         !(FREEZING_POINT > 0 && (T[i] & SET) != 0u)) {
       if (E[i] > THRESHOLD)

@@ -105,6 +105,13 @@ FN int relaxed_flow(Shown giver, int a, Shown taker, int b, int diagonal, int di
   return (int)lmin(wanted, most_flow(a, taker, b, diagonal));
 }
 
+// Tells if a pair exchanges something at another dither, the largest. With relaxed heads nobody asks.
+FN int may_flow(Shown one, int a, Shown other, int b, int diagonal, int walls, int across, int stages) {
+  if (stages > 1) return 0;
+  return viscous_flow(one, a, other, b, diagonal, 65535, walls, across) > 0 ||
+         viscous_flow(other, b, one, a, diagonal, 65535, walls, across) > 0;
+}
+
 FN int blocked_beside(CONSTANTS, GLOBAL const uchar* F, int i, int d) {
   int along = d < 2 ? direction_x(d) : direction_z(d) * SLICE, across = d < 2 ? SLICE : 1;
   return is_blocked(F[i + across]) + is_blocked(F[i - across]) + is_blocked(F[i + along + across]) +
@@ -147,8 +154,8 @@ FN int pair_dither(uint step, int axis, int y, int substep, int substeps) {
 KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, GLOBAL const ushort* A,
                     GLOBAL const ushort* H, GLOBAL ushort* new_A, GLOBAL ushort* new_H, GLOBAL const uchar* T,
                     GLOBAL const ushort* run, GLOBAL const Column* records, GLOBAL const int* heads,
-                    MOMENTS, GLOBAL long* books, GLOBAL const int* list, GLOBAL const int* counts,
-                    uint step, int substep, int substeps, int stages, int dither, int now) {
+                    MOMENTS, GLOBAL long* books, GLOBAL const int* list, GLOBAL int* giving,
+                    GLOBAL int* counts, uint step, int substep, int substeps, int stages, int dither, int now) {
   SCRATCH
   long rounded = 0;
   Relaxation how = relaxation_of(stages);
@@ -176,9 +183,10 @@ KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, 
           wanted = relaxed_flow(own, a, there, b, diagonal, offset, walls, across, fall, how) -
                    relaxed_flow(there, b, own, a, diagonal, offset, walls, across, -fall, how);
         }
-        if (wanted == 0) continue;
         int set = FREEZING_POINT > 0 && (T[j] & SET) != 0u, higher = own.column.head > there.column.head;
-        if ((higher ? own_set : set) || (wanted > 0 ? own_set : set)) continue;
+        if (higher ? own_set : set) continue;
+        if (wanted != 0 || may_flow(own, a, there, b, diagonal, walls, across, stages)) note(&RESTLESS_AT(brick), now);
+        if (wanted == 0 || (wanted > 0 ? own_set : set)) continue;
         if (wanted > 0) {
           out += wanted;
         } else {
@@ -191,6 +199,7 @@ KERNEL(spread_runs)(CONSTANTS, GLOBAL const int* tables, GLOBAL const uchar* F, 
         a += in - out;
         if (a == 0) h = 0;
         note(&MOVED_AT(brick), now);
+        claim(P, moments, giving, counts, brick, now);
       }
     }
     new_A[i] = (ushort)a;

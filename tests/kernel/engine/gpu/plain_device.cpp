@@ -22,12 +22,12 @@ namespace {
 #include "kernel/engine/gpu/program/all.cl"
 
 // All kernels in the order of kKernelNames.
-#define ALL_KERNELS(DO)                                                                                  \
-  DO(list_bricks), DO(list_awake), DO(list_givers), DO(find_matter), DO(vent), DO(drain), DO(border),    \
-      DO(conduct), DO(exchange), DO(copy_heat), DO(find_cold), DO(melt), DO(gravity), DO(find_patterns), \
-      DO(apply_patterns), DO(take_over), DO(settle), DO(count_substeps), DO(spread_runs),                \
-      DO(begin_relaxing), DO(relax), DO(put_light), DO(find_cubes), DO(find_blocks), DO(add_light),      \
-      DO(share_light), DO(copy_words)
+#define ALL_KERNELS(DO)                                                                               \
+  DO(list_bricks), DO(list_awake), DO(list_givers), DO(list_columns), DO(list_pairs), DO(list_falls), \
+      DO(find_matter), DO(vent), DO(drain), DO(border), DO(conduct), DO(exchange), DO(copy_heat),     \
+      DO(find_cold), DO(melt), DO(gravity), DO(find_patterns), DO(apply_patterns), DO(take_over),     \
+      DO(settle), DO(count_substeps), DO(spread_runs), DO(begin_relaxing), DO(relax), DO(put_light),  \
+      DO(find_cubes), DO(find_blocks), DO(add_light), DO(share_light), DO(copy_words)
 #define CALL(name) (&Unpacked<&(name)>::call)
 constexpr Call kCalls[] = {ALL_KERNELS(CALL)};
 #define TAKE(name) (&Bound<&(name)>::take)

@@ -110,6 +110,22 @@ TEST(KernelsAsleepAlone, LiquidLeavesABrickAndComesBack) {
     }
 }
 
+// A set drop falls out of a brick in free air. Warm liquid climbs to where it was set, and gives at once.
+TEST(KernelsAsleepAlone, AirIsNotSet) {
+  Parameters p = paper_showcase();
+  p.heat = {};
+  p.heat.enabled = true;
+  p.material = {.melting_point = 30000, .freezing_point = 30000};
+  p.flow.fall = {.factor = 65536, .wall_factor = 65536, .minimum = 0};
+  p.flow.paper.threshold = 0;
+  p.flow.paper.margin = 1;
+  p.vents.push_back({{{16 * 10 + 8, 16 * 3 + 8, 16 * 10 + 8}, 1}, 4096, 50000, 4096, 3, 4});
+  Volume start({20, 12, 20});
+  fill_inert(start, {0, 0, 0, 20, 3, 20});
+  put(start, 10, 4, 10, 2000, 0, 20000);
+  for (p.seed = 0; p.seed < 4; ++p.seed) EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 6));
+}
+
 // A hot drop falls on a solid at the corner of a brick. Only over that corner heat comes to another solid.
 TEST(KernelsAsleepAlone, HeatCrossesACorner) {
   Parameters p = paper_showcase();
@@ -161,7 +177,8 @@ Stepper::Work work_in(const std::string& name, int eighths) {
 
 // Both kernels of spread would visit all bricks that hold matter, and those beside them.
 TEST(BricksAwake, AreFewInScenes) {
-  for (const char* name : {"cello", "goblet", "lava", "bunny"}) {
+  for (const char* name :
+       {"cello", "goblet", "lava", "bunny", "cello_viscous", "goblet_viscous", "lava_viscous", "candle"}) {
     if (!all_rounds() && std::string(name) != "cello") continue;
     Stepper::Work sum;
     for (int eighths = all_rounds() ? 1 : 4; eighths < (all_rounds() ? 8 : 5); ++eighths) {
