@@ -1,5 +1,6 @@
 // A brick that sleeps on a device stays as it is. In calm worlds small causes wake it: the same as for tiles
 // (tests/kernel/engine/parallel). The audit computes what would sleep all the same, and finds no change.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -124,6 +125,29 @@ TEST(KernelsAsleepAlone, AirIsNotSet) {
   fill_inert(start, {0, 0, 0, 20, 3, 20});
   put(start, 10, 4, 10, 2000, 0, 20000);
   for (p.seed = 0; p.seed < 4; ++p.seed) EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 6));
+}
+
+// Warm liquid would give more than the step between two cells, so it gives nothing. As it cools, it would
+// give less, and may flow.
+TEST(KernelsAsleepAlone, WhatCoolsMayFlow) {
+  Parameters p = paper_showcase();
+  p.flow.paper.threshold = 0;
+  p.flow.paper.margin = 1;
+  p.flow.paper.share = 13107;
+  p.flow.thermal_viscosity = true;
+  p.flow.mobility_table.fill(32768);
+  std::fill_n(p.flow.mobility_table.begin(), 20, std::uint16_t{2000});
+  p.heat.enabled = p.heat.air = true;
+  p.heat.air_exchange = 1000;
+  p.heat.air_temperature.assign(3, 30000);
+  p.material.melting_point = 65535;
+  Volume start({4, 3, 3});
+  fill_inert(start, {0, 0, 0, 4, 1, 3});
+  for (const int x : {1, 2}) {
+    start.inert.set(x, 0, 1, false);
+    put(start, x, 0, 1, x == 1 ? 4096 : 3900, 3900, 42000);
+  }
+  EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 20));
 }
 
 // A hot drop falls on a solid at the corner of a brick. Only over that corner heat comes to another solid.
