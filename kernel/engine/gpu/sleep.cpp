@@ -23,6 +23,7 @@ void Stepper::forget_moments() {
     if (*field) device_->clear(**field, static_cast<std::size_t>(shape_.cells));
   if (moment_ > kLastMoment) moment_ = 0;
   awake_ = givers_ = columns_listing_ = falls_ = {};
+  all_changed_ = true;
   if (run_) {
     device_->clear(*run_, 2 * static_cast<std::size_t>(shape_.cells));
     device_->clear(*limits_, limit_bytes());
@@ -121,6 +122,37 @@ void Stepper::for_each_brick(const Visit& visit) {
   for (int z = 1; z < bricks.z - 1; ++z)
     for (int y = 1; y < bricks.y - 1; ++y)
       for (int x = 1; x < bricks.x - 1; ++x) visit(static_cast<std::int64_t>(bricks.index(x, y, z)), last);
+}
+
+// Only those numbers come of which something is told.
+void Stepper::fetch_changes() {
+  std::vector<std::int32_t> moments(2 * shape_.bricks.cells());
+  static_assert(moved == 0 && warm == 1);
+  device_->read(*moments_, moments.data(), sizeof(std::int32_t) * moments.size());
+  fetched_ = std::move(moments);
+  fetched_at_ = moment_;
+}
+
+// A brick whose heat might change at another dither is told, too.
+void Stepper::tell_changes(state::ChangedBricks& changed) {
+  using Changed = state::ChangedBricks;
+  if (std::exchange(all_changed_, false) || fetched_.empty()) {
+    told_at_ = fetched_at_;
+    return changed.mark_all();
+  }
+  const state::Grid& bricks = shape_.bricks;
+  const auto tell = [&](Changed::Part part, Moment moment, int x, int y, int z) {
+    if (fetched_[moment * bricks.cells() + bricks.index(x, y, z)] <= told_at_) return;
+    const std::uint64_t word = std::uint64_t{1} << ((x - 1) * kBrickX / 64);
+    changed.mark(part, word, (y - 1) * kBrickY / state::kBrickSide, (z - 1) * kBrickZ / state::kBrickSide);
+  };
+  for (int z = 1; z < bricks.z - 1; ++z)
+    for (int y = 1; y < bricks.y - 1; ++y)
+      for (int x = 1; x < bricks.x - 1; ++x) {
+        tell(Changed::kMatter, moved, x, y, z);
+        tell(Changed::kHeat, warm, x, y, z);
+      }
+  told_at_ = fetched_at_;
 }
 
 Stepper::Work Stepper::work() {

@@ -181,6 +181,7 @@ void Stepper::download(state::Volume& volume, state::Ledger& ledger) {
   };
   read(energy_, state.energy);
   read(heat_, state.heat);
+  fetch_changes();
   unpack(state, shape_, volume);
   ledger = ledger_;
   in_flight_.reset();

@@ -38,6 +38,7 @@ class Stepper final : public step::DeviceStepper {
   void run_step(std::uint32_t step, const step::Irradiance* irradiance) override;
   void download_masks(state::Volume& volume) override;
   void download(state::Volume& volume, state::Ledger& ledger) override;
+  void tell_changes(state::ChangedBricks& changed) override;
 
   // Counts the bricks in which the last step had work, under the paper's law, beside those that hold matter.
   struct Work {
@@ -79,6 +80,7 @@ class Stepper final : public step::DeviceStepper {
   std::vector<std::int32_t> read_moments();
   template <class Visit>
   void for_each_brick(const Visit& visit);
+  void fetch_changes();
   void find_fault(const char* phase, std::int64_t brick);
   void audit_heat();
   void audit_gravity();
@@ -124,6 +126,11 @@ class Stepper final : public step::DeviceStepper {
   bool audits_ = false, awake_known_ = false, falls_known_ = false,
        givers_known_ = false;  // known: the list tells who sleeps
   std::string fault_;
+  // Bricks that have changed or may have, by the last download: their moments, and the one that was told
+  // last.
+  std::vector<std::int32_t> fetched_;
+  std::int32_t fetched_at_ = 0, told_at_ = 0;
+  bool all_changed_ = true;
   std::int32_t falls_from_ = 0;  // a brick that was woken then or later is awake for gravity
   Buffer moments_;               // of each brick (program/lists.cl)
   Buffer full_, near_, giving_, columns_, counts_, other_counts_, most_, books_;
