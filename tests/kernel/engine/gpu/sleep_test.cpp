@@ -150,6 +150,33 @@ TEST(KernelsAsleepAlone, WhatCoolsMayFlow) {
   EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 20));
 }
 
+// A pool that is level and of one temperature rests, and nothing of it is looked at.
+TEST(KernelsAsleepAlone, AFlatPoolSleeps) {
+  for (const rule::Law law : {rule::Law::paper, rule::Law::viscous}) {
+    Parameters p = law == rule::Law::paper ? paper_showcase() : viscous(0.1);
+    p.heat.enabled = true;
+    p.heat.weight_face = 5000;
+    p.material.melting_point = 20000;
+    Volume start({70, 14, 9});
+    for_each({0, 0, 0, 70, 6, 9}, [&](int x, int y, int z) {
+      put(start, x, y, z, kOne, law == rule::Law::paper ? kOne : 0, 30000);
+    });
+    Stepper* device = nullptr;
+    const step::Implementation watched{
+        "device", "", [&](const Parameters& parameters, Grid grid, const step::Tuning&) {
+          auto stepper = std::make_unique<Stepper>(plain_device(1), parameters, grid);
+          device = stepper.get();
+          return stepper;
+        }};
+    run::Simulation simulation(p, start, watched);
+    steps(simulation, 1);
+    EXPECT_GT(device->work().with_matter, 10);
+    steps(simulation, 3);
+    const Stepper::Work rest = device->work();
+    EXPECT_EQ(rest.heat + rest.gravity + rest.spread + rest.giving, 0);
+  }
+}
+
 // A drop falls in one corner. The bricks there are told, and no others.
 TEST(KernelsAsleepAlone, ChangesAreTold) {
   Volume start({130, 40, 40});
