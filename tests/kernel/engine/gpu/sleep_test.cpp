@@ -177,6 +177,43 @@ TEST(KernelsAsleepAlone, AFlatPoolSleeps) {
   }
 }
 
+// Two shafts rest, joined at the bottom alone. One loses some at its top, several bricks above. Then it shows
+// another head at the bottom, where nothing else has changed.
+TEST(KernelsAsleepAlone, AHeadIsShownFarBelow) {
+  Parameters p = viscous(0.3);
+  Volume start({14, 16, 3});
+  fill_inert(start, whole(start.grid));
+  for (const int x : {10, 11, 12})
+    for (int y = 0; y < (x == 11 ? 1 : 16); ++y) {
+      start.inert.set(x, y, 1, false);
+      put(start, x, y, 1, y < 13 ? kOne : y == 13 ? 3000 : 0);
+    }
+  run::Simulation reference = simulate(p, start);
+  steps(reference, 57);
+  const Volume before = reference.volume();
+  steps(reference, 3);
+  EXPECT_EQ(difference(before, reference.volume()), "") << "it rests";
+  int top = 15;
+  while (amount_at(reference, 10, top, 1) == 0) --top;
+  EXPECT_GE(top, 8) << "two bricks above";
+  EXPECT_GT(amount_at(reference, 10, top, 1), 1000);
+  p.drains.push_back({{{16 * 10 + 8, 16 * top + 8, 24}, 1}, 900, 60, 61});
+  EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 75));
+}
+
+// A dam breaks behind a wall, so that steps need fewer sub-steps. Beside it a pool sleeps, and shows values
+// that fit the former number of sub-steps. Then a vent makes a part of it give.
+TEST(KernelsAsleepAlone, SleepersShowWhatFitsTheSubsteps) {
+  Parameters p = viscous(0.3);
+  p.flow.viscous.substeps = 0;
+  Volume start({194, 6, 1});
+  fill(start, {0, 0, 0, 3, 6, 1}, kOne);
+  for (int y = 0; y < 6; ++y) put_inert(start, 60, y, 0);
+  fill(start, {61, 0, 0, 194, 1, 1}, kOne);
+  p.vents = {{.region = {{16 * 127 + 8, 8, 8}, 1}, .rate = 4096, .energy = 0, .from = 40}};
+  EXPECT_TRUE(same_steps_on_device(p, start, plain(1), 50));
+}
+
 // A drop falls in one corner. The bricks there are told, and no others.
 TEST(KernelsAsleepAlone, ChangesAreTold) {
   Volume start({130, 40, 40});
