@@ -244,12 +244,12 @@ void Stepper::run_step(std::uint32_t step, const step::Irradiance* irradiance) {
   device_->flush();
 }
 
-// Lists the bricks that hold matter, those that it may reach, and the columns.
+// Lists the bricks that hold matter, and the columns.
 void Stepper::list_bricks() {
   counts_.swap(other_counts_);
-  device_->run(Kernel::list_bricks, groups_,
-               {constants_.get(), moments_.get(), full_.get(), near_.get(), columns_.get(), counts_.get(),
-                other_counts_.get()});
+  device_->run(
+      Kernel::list_bricks, groups_,
+      {constants_.get(), moments_.get(), full_.get(), columns_.get(), counts_.get(), other_counts_.get()});
 }
 
 void Stepper::source(std::uint32_t step) {

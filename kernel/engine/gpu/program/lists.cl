@@ -68,18 +68,13 @@ FN int late_in_layer(CONSTANTS, GLOBAL const int* own, int since) {
   return late;
 }
 
-// Lists all bricks that hold matter, those beside them, and the columns.
-KERNEL(list_bricks)(CONSTANTS, MOMENTS, GLOBAL int* full, GLOBAL int* near_, GLOBAL int* columns, GLOBAL int* counts,
+// Lists all bricks that hold matter, and the columns.
+KERNEL(list_bricks)(CONSTANTS, MOMENTS, GLOBAL int* full, GLOBAL int* columns, GLOBAL int* counts,
                     GLOBAL int* other_counts) {
-  int plane = BRICKS_X * BRICKS_Y;
   forget_counts(other_counts);
   for (int n = GROUP * LANES + LANE; n < BRICKS; n += GROUPS * LANES) {
     if (is_border_brick(P, n)) continue;
-    int own = has_matter(P, moments, n), any = own;
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dx = -1; dx <= 1; ++dx) any |= has_matter(P, moments, n + dz * plane + dx);
-    if (own != 0) full[NEXT(counts + FULL)] = n;
-    if (any != 0) near_[NEXT(counts + NEAR)] = n;
+    if (has_matter(P, moments, n)) full[NEXT(counts + FULL)] = n;
     list_column(P, moments, columns, counts, n);
   }
 }
