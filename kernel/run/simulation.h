@@ -87,7 +87,7 @@ class Simulation {
   std::int64_t loose_cells() const;  // solid cells of pieces that nothing holds, by a pass over all solids
   state::Drift drift() const { return state::drift(ledger(), volume()); }
 
-  // Returns the tiles that the next step works on. A device has none that sleep.
+  // Returns the tiles that the next step works on. A device tells none.
   step::AwakeTiles awake() const { return host_ != nullptr ? host_->awake() : step::AwakeTiles{}; }
 
   // Returns the volume that the next step begins with, for tests that plant a leak.

@@ -284,31 +284,34 @@ Stepper::Work work_in(const std::string& name, int eighths) {
   return sum;
 }
 
-// Both kernels of spread would visit all bricks that hold matter, and those beside them.
-class BricksAwake : public testing::TestWithParam<const char*> {};
-
-TEST_P(BricksAwake, AreFewInScenes) {
-  const std::string name = GetParam();
-  if (!all_rounds() && name != "cello") GTEST_SKIP() << "the slow test has it";
-  Stepper::Work sum;
-  for (const int eighths : {2, 4, 6}) {
-    if (!all_rounds() && eighths != 4) continue;
-    const Stepper::Work one = work_in(name, eighths);
-    std::printf("%s %d/8: matter %d, beside %d, heat %d, gravity %d, spread %d, giving %d\n", name.c_str(),
-                eighths, one.with_matter / 4, one.beside_matter / 4, one.heat / 4, one.gravity / 4,
-                one.spread / 4, one.giving / 4);
-    sum.beside_matter += one.beside_matter;
-    sum.spread += one.spread;
-    sum.giving += one.giving;
+// Without sleep, spread would visit all bricks that hold matter, and those beside them: twice under the
+// paper's law.
+TEST(BricksAwake, AreFewInScenes) {
+  for (const std::string name :
+       {"cello", "goblet", "lava", "bunny", "cello_viscous", "goblet_viscous", "lava_viscous", "candle"}) {
+    if (!all_rounds() && name != "cello") continue;
+    Stepper::Work sum;
+    for (const int eighths : {2, 4, 6}) {
+      if (!all_rounds() && eighths != 4) continue;
+      const Stepper::Work one = work_in(name, eighths);
+      std::printf("%s %d/8: matter %d, beside %d, heat %d, gravity %d, spread %d, giving %d\n", name.c_str(),
+                  eighths, one.with_matter / 4, one.beside_matter / 4, one.heat / 4, one.gravity / 4,
+                  one.spread / 4, one.giving / 4);
+      sum.beside_matter += one.beside_matter;
+      sum.spread += one.spread;
+      sum.giving += one.giving;
+    }
+    EXPECT_GT(sum.giving, 0) << name;
+    EXPECT_LT(sum.giving, sum.beside_matter) << name;
+    const bool viscous_law = name.ends_with("_viscous") || name == "candle";
+    if (viscous_law)  // one kernel, and what it has changed is brought back
+      EXPECT_LE(sum.spread, sum.beside_matter) << name;
+    else
+      EXPECT_LT(3 * (sum.spread + sum.giving), 4 * sum.beside_matter)
+          << name << ": it would be 6 without sleep";
   }
-  EXPECT_GT(sum.spread, 0);
-  EXPECT_LT(3 * (sum.spread + sum.giving), 4 * sum.beside_matter) << "without sleep it would be 6";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BricksAwake,
-                         testing::Values("cello", "goblet", "lava", "bunny", "cello_viscous",
-                                         "goblet_viscous", "lava_viscous", "candle"),
-                         [](const auto& scene) { return std::string(scene.param); });
 INSTANTIATE_TEST_SUITE_P(Laws, KernelsAsleep, testing::Values(rule::Law::paper, rule::Law::viscous),
                          [](const auto& law) { return law.param == rule::Law::paper ? "paper" : "viscous"; });
 
