@@ -159,6 +159,7 @@ TEST(CudaHost, ACardThatHangsIsLost) {
     EXPECT_LT(waited, std::chrono::seconds(30));
   }
   EXPECT_EQ(card.alive, alive + 5) << "nothing is given back to what does not answer";
+  new_fake_card();
 }
 
 std::set<std::string> words_of(const std::string& dialect) {

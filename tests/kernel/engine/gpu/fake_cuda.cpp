@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,7 @@ constexpr CudaResult kInvalid = 1;
 FakeCard card;
 std::deque<std::function<void()>> queue;    // what was asked for and has not been done
 std::map<CudaAddress, std::size_t> memory;  // of the card, by its first byte
+std::set<void*> staging;                    // of the host
 thread_local bool entered = false;          // by this thread
 const CudaContext kContext = reinterpret_cast<CudaContext>(16);
 const CudaStream kStream = reinterpret_cast<CudaStream>(32);
@@ -157,9 +159,15 @@ CudaLibrary driver() {
   all.cuMemFree = free_memory;
   all.cuMemHostAlloc = [](void** to, std::size_t bytes, unsigned) {
     if (outside("cuMemHostAlloc")) return kInvalid;
-    return *to = std::malloc(bytes), ++card.alive, kCudaSuccess;
+    *to = std::malloc(bytes);
+    staging.insert(*to);
+    return ++card.alive, kCudaSuccess;
   };
-  all.cuMemFreeHost = [](void* at) { return std::free(at), --card.alive, kCudaSuccess; };
+  all.cuMemFreeHost = [](void* at) {
+    if (staging.erase(at) == 0) return broken("memory of the host is given back twice");
+    std::free(at);
+    return --card.alive, kCudaSuccess;
+  };
   all.cuMemsetD32Async = clear_words;
   all.cuMemcpyHtoDAsync = send;
   all.cuMemcpyDtoHAsync = fetch;
@@ -206,6 +214,10 @@ NvrtcLibrary compiler() {
 
 FakeCard& new_fake_card() {
   queue.clear();
+  for (const auto& [address, bytes] : memory) std::free(bytes_at(address));
+  for (void* piece : staging) std::free(piece);
+  memory.clear();
+  staging.clear();
   return card = {};
 }
 

@@ -20,7 +20,7 @@ struct FakeCard {
   std::vector<std::string> broken_rules;  // of the driver
 };
 
-// Begins anew with a card that works.
+// Begins anew with a card that works, and takes what was never given back.
 FakeCard& new_fake_card();
 
 // Both stay the same.
