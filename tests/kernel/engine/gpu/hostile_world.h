@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "tests/kernel/engine/parallel/calm.h"
 #include "tests/kernel/engine/scalar/hostile.h"
 
 namespace voxmelt::worlds {
@@ -72,6 +73,13 @@ inline HostileWorld sparse_world(int seed, rule::Law law) {
     });
   }
   return {parameters, volume};
+}
+
+inline HostileWorld calm_world(int seed, rule::Law law) {
+  Random random(static_cast<std::uint64_t>(seed) * 104729 + static_cast<std::uint64_t>(law));
+  const Grid grid = calm_grid(random);
+  const Parameters parameters = calm_parameters(random, law, grid);
+  return {parameters, calm_volume(random, parameters, grid)};
 }
 
 }  // namespace voxmelt::worlds

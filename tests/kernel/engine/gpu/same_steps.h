@@ -27,12 +27,12 @@ inline step::Implementation on_device(const MakeDevice& make) {
 }
 
 inline bool same_steps_on_device(const Parameters& parameters, const Volume& start, const MakeDevice& make,
-                                 int count, bool host_follows_rays = false) {
+                                 int count, bool host_follows_rays = false, bool sleep = true) {
   run::Simulation expected(parameters, start, implementation("reference"));
   std::unique_ptr<visibility::Provider> provider;  // a usual one, whose name a device does not stand for
   if (host_follows_rays)
     provider = std::make_unique<visibility::KeptRays>(std::make_unique<visibility::PlainCaster>());
-  run::Simulation actual(parameters, start, on_device(make), {}, std::move(provider));
+  run::Simulation actual(parameters, start, on_device(make), {.sleep = sleep}, std::move(provider));
   Volume before = start;
   state::ChangedBricks::Seen seen = actual.volume().changed.now();
   for (int step = 0; step < count; ++step) {

@@ -13,20 +13,12 @@
 #include "tests/kernel/engine/gpu/hostile_world.h"
 #include "tests/kernel/engine/gpu/plain_device.h"
 #include "tests/kernel/engine/gpu/same_steps.h"
-#include "tests/kernel/engine/parallel/calm.h"
 #include "tests/rounds.h"
 
 namespace voxmelt::gpu {
 namespace {
 
 using namespace worlds;
-
-HostileWorld calm_world(int seed, rule::Law law) {
-  Random random(static_cast<std::uint64_t>(seed) * 104729 + static_cast<std::uint64_t>(law));
-  const Grid grid = calm_grid(random);
-  const Parameters parameters = calm_parameters(random, law, grid);
-  return {parameters, calm_volume(random, parameters, grid)};
-}
 
 MakeDevice plain(int threads) {
   return [threads](const Parameters&, Grid) { return plain_device(threads); };
