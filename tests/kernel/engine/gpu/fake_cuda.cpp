@@ -1,5 +1,6 @@
 #include "tests/kernel/engine/gpu/fake_cuda.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -44,7 +45,7 @@ bool is_on_card(CudaAddress first, std::size_t bytes) {
   const auto& [begin, size] = *std::prev(after);
   return first + bytes <= begin + size;
 }
-char* bytes_at(CudaAddress address) { return reinterpret_cast<char*>(address); }
+char* bytes_at(CudaAddress address) { return std::bit_cast<char*>(address); }
 
 template <class Task>
 CudaResult later(const char* what, CudaStream stream, Task&& task) {
