@@ -41,6 +41,7 @@ std::string compiled_for_cuda(const NvrtcLibrary& compiler, const std::string& t
                               const std::string& options, int architecture, std::string* said) {
   const std::vector<std::string> words = words_of(options, architecture, said != nullptr);
   std::vector<const char*> begins;
+  begins.reserve(words.size());
   for (const std::string& word : words) begins.push_back(word.c_str());
 
   NvrtcProgram program = nullptr;
