@@ -17,8 +17,8 @@
 namespace voxmelt::gpu {
 namespace {
 
-// The machine's own card holds the state in pieces of this size while they go to and fro: a driver that
-// copies from any other memory may wait by itself.
+// The state goes to and fro in pieces of this size, through memory of the host that the driver knows. A
+// driver that copies from any other memory may wait by itself.
 constexpr std::size_t kStaging = std::size_t{8} << 20;
 
 void check(const CudaLibrary& driver, CudaResult code, const std::string& what) {
